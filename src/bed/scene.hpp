@@ -1,0 +1,109 @@
+#pragma once
+// What a case file says, checked and in SI: one scene for every method. Made by io/case, never changed in a
+// run.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shape/container.hpp"
+#include "shape/shape.hpp"
+
+namespace packbed {
+
+struct PelletKind {
+  ShapePtr shape;
+  double density = 0;  // [kg/m3]
+  double share = 1;    // of the pellets fed, by number; the shares of a scene add up to 1
+};
+
+/// Penalty contact between two pellets, or between a pellet and the container.
+struct ContactLaw {
+  double stiffness =
+      0;  // of the energy k delta^2 / 2 [N/m]; 0: found from the allowed overlap at the expected speed
+  double allowed_overlap =
+      0;  // at the hardest impact, fraction of the smallest thickness; used when stiffness is 0
+  double damping_ratio = 0;  // fraction of critical [-] (see damping_from_restitution)
+  double friction = 0;       // Coulomb coefficient [-]
+  bool torsion = true;       // a spring against spinning on a flat touch
+};
+
+enum class FeedKind { layers, pour, placed };
+
+/// A pellet that the case puts where it wants it.
+struct PlacedPellet {
+  std::uint32_t kind = 0;  // index into Scene::pellets
+  Pose pose;
+  Vec3 velocity = Vec3::Zero();  // [m/s]
+  Vec3 spin = Vec3::Zero();      // [rad/s]
+  bool fixed = false;
+};
+
+struct Feed {
+  FeedKind kind = FeedKind::layers;
+  // the end of feeding: whichever of these is given and reached first
+  std::optional<int> count;      // pellets
+  std::optional<double> height;  // of the bed's surface [m]
+  std::optional<double> mass;    // fed [kg]
+  int per_layer = 49;            // pellets entering together (layers), or in one handful (pour)
+  double interval = 0.04;        // between two layers or handfuls [s]
+  double drop_height = 0;        // of the centres of the lowest pellets of a layer at entry [m]
+  bool above_bed = false;        // drop_height counts from the bed's surface instead of the floor
+  double radius =
+      0;  // of the circle that centres enter in [m]; 0: as wide as the container lets every rotation fit
+  double speed = 0;                  // of a uniformly random direction at entry [m/s]; 0: at rest
+  std::vector<PlacedPellet> placed;  // FeedKind::placed only
+};
+
+/// How the mesh packer moves bodies.
+struct Stepping {
+  double step = 0;  // [s]; 0: contact time of the stiffest contact / steps_per_contact
+  double steps_per_contact = 20;
+  double skin = 0;    // of the neighbour list [m]; 0: found from the pellet size
+  bool sleep = true;  // let settled pellets stand still until something moves them
+  double sleep_displacement =
+      1e-4;                  // drift over the watch time below which a pellet may sleep, fraction of its size
+  double rest_speed = 1e-3;  // mean kinetic speed under which a bed may be called at rest [m/s]
+  double rest_force = 1e-2;  // largest mean unbalanced force, fraction of the weight
+  double rest_drift = 1e-3;  // largest displacement over rest_window, fraction of the pellet size
+  double rest_window = 0.05;  // [s]
+  double max_time = 60;       // simulated time after which the run gives up waiting for rest [s]
+  double duration = 0;        // run exactly so long, whatever happens [s]; 0: until at rest
+};
+
+struct AnalysisWish {
+  double voxel = 1e-4;        // pitch of the grid [m]
+  double from_diameters = 3;  // middle section for the bulk density: from this height ...
+  double to_diameters = 17;   // ... to this height above the floor, in pellet diameters (see diameter)
+  double diameter = 0;        // dp of all scaled axes [m]; 0: diameter of the sphere of equal volume
+  bool voxels = true, orientation = true, exact = true;
+};
+
+struct OutputWish {
+  double trajectory_interval = 0;   // [s]; 0: none
+  double checkpoint_interval = 30;  // wall-clock [s]; 0: none
+  bool voxels = false;              // write voxels.h5
+  bool vtk = true;                  // ParaView files beside
+  bool report = true;
+};
+
+struct Scene {
+  std::string name;
+  std::string case_file;        // as given on the command line
+  std::string case_text;        // TOML with all defaults filled in
+  std::string method = "mesh";  // mesh | spheres | digipac | digicgp | digidem
+  std::string kernel = "auto";  // auto | sphere | cylinder | field
+  std::uint64_t seed = 1;
+  std::vector<PelletKind> pellets;
+  Container container;
+  Vec3 gravity{0, 0, -9.80665};  // [m/s2]
+  ContactLaw pellet_contact, wall_contact;
+  Feed feed;
+  Stepping stepping;
+  AnalysisWish analysis;
+  OutputWish output;
+  double overlap_limit =
+      0.005;  // largest overlap at rest that the audit lets pass, fraction of the smallest thickness
+};
+
+}  // namespace packbed

@@ -1,0 +1,51 @@
+#pragma once
+// One function a sub-command; main.cpp reads the command line into these records. Each returns the exit code.
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace packbed::cli {
+
+struct RunOptions {
+  std::string case_file, out;     // out empty: results/<case name>
+  std::vector<std::string> sets;  // key=value
+  std::optional<unsigned long long> seed;
+  int threads = 0;  // 0: as many as the machine has
+  bool quiet = false, dry = false, force = false;
+};
+int run(const RunOptions&);
+
+struct ResumeOptions {
+  std::string folder;
+  int threads = 0;
+  bool quiet = false;
+};
+int resume(const ResumeOptions&);
+
+struct VoxeliseOptions {
+  std::string bed, pitch = "0.1 mm", out;
+  bool labels = false;
+  int threads = 0;
+};
+int voxelise(const VoxeliseOptions&);
+
+struct AnalyseOptions {
+  std::string input, out, pitch = "0.1 mm";
+  std::string container_diameter;  // for a grid that does not say it
+  int threads = 0;
+};
+int analyse(const AnalyseOptions&);
+
+struct CheckOptions {
+  std::string file, unit;  // unit: of STL, OBJ, PLY
+  bool tets = false;
+  bool container = false;  // read it as a container, not as a pellet
+};
+int check(const CheckOptions&);
+
+struct ExportOptions {
+  std::string bed, to = "vtu", out;
+};
+int export_bed(const ExportOptions&);
+
+}  // namespace packbed::cli

@@ -1,0 +1,120 @@
+// The program: reads the command line and hands over to one function a sub-command.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "cli/commands.hpp"
+#include "math/error.hpp"
+
+namespace packbed::cli {
+namespace {
+
+void add_run(CLI::App& app, int& code) {
+  auto o = std::make_shared<RunOptions>();
+  CLI::App* c =
+      app.add_subcommand("run", "pack a bed as a case file says, analyse it, write the result folder");
+  c->add_option("case", o->case_file, "case file (TOML)")->required();
+  c->add_option("--out", o->out, "result folder (default: results/<case name>)");
+  c->add_option("--set", o->sets, "change a key of the case, e.g. --set contact.friction=0.6")->take_all();
+  c->add_option("--seed", o->seed, "seed of all random numbers");
+  c->add_option("--threads", o->threads,
+                "threads (default: as many as the machine has); the bed is the same for any number");
+  c->add_flag("--quiet", o->quiet, "no progress, only the summary");
+  c->add_flag("--dry", o->dry, "print the case with its defaults and the plan; pack nothing");
+  c->add_flag("--force", o->force, "overwrite an existing result folder");
+  c->footer(
+      "Examples:\n  packbed run cases/quick.toml\n  packbed run cases/quick.toml --set feed.count=100 --seed "
+      "7 --out /tmp/q7");
+  c->callback([o, &code] { code = run(*o); });
+}
+
+void add_resume(CLI::App& app, int& code) {
+  auto o = std::make_shared<ResumeOptions>();
+  CLI::App* c = app.add_subcommand("resume", "continue an interrupted run, bit for bit");
+  c->add_option("folder", o->folder, "result folder of the interrupted run")->required();
+  c->add_option("--threads", o->threads, "threads");
+  c->add_flag("--quiet", o->quiet, "no progress, only the summary");
+  c->footer("Example:\n  packbed resume results/a38_lc_poured");
+  c->callback([o, &code] { code = resume(*o); });
+}
+
+void add_voxelise(CLI::App& app, int& code) {
+  auto o = std::make_shared<VoxeliseOptions>();
+  CLI::App* c = app.add_subcommand("voxelise", "bed to grid");
+  c->add_option("bed", o->bed, "bed.h5 or result folder")->required();
+  c->add_option("--pitch", o->pitch, "edge of a voxel, e.g. \"0.1 mm\"");
+  c->add_option("--out", o->out, "file to write (default: voxels.h5 beside the bed)");
+  c->add_flag("--labels", o->labels, "store which pellet fills a voxel, not only that one does");
+  c->add_option("--threads", o->threads, "threads");
+  c->footer("Example:\n  packbed voxelise results/quick --pitch \"0.05 mm\"");
+  c->callback([o, &code] { code = voxelise(*o); });
+}
+
+void add_analyse(CLI::App& app, int& code) {
+  auto o = std::make_shared<AnalyseOptions>();
+  CLI::App* c = app.add_subcommand("analyse", "profiles, orientations, overlaps of a bed or a grid");
+  c->add_option("input", o->input, "bed.h5, voxels.h5 or result folder")->required();
+  c->add_option("--out", o->out, "folder for the curves (default: beside the input)");
+  c->add_option("--pitch", o->pitch, "edge of a voxel for a bed, e.g. \"0.1 mm\"");
+  c->add_option("--diameter", o->container_diameter,
+                "inner diameter of the container, for a grid that does not say it");
+  c->add_option("--threads", o->threads, "threads");
+  c->footer("Example:\n  packbed analyse results/quick --pitch \"0.05 mm\" --out /tmp/fine");
+  c->callback([o, &code] { code = analyse(*o); });
+}
+
+void add_check(CLI::App& app, int& code) {
+  auto o = std::make_shared<CheckOptions>();
+  CLI::App* c =
+      app.add_subcommand("check", "what is wrong with a CAD file or a case, and what will be made of it");
+  c->add_option("file", o->file, "STEP, MSH, STL, OBJ, PLY or TOML")->required();
+  c->add_option("--unit", o->unit, "of lengths in STL, OBJ, PLY and MSH files: m, cm, mm, um, in");
+  c->add_flag("--tets", o->tets, "also fill it with tetrahedra");
+  c->add_flag("--container", o->container, "read it as a container");
+  c->footer(
+      "Examples:\n  packbed check meshes/a38.step\n  packbed check pellet.stl --unit mm\n  packbed check "
+      "cases/quick.toml");
+  c->callback([o, &code] { code = check(*o); });
+}
+
+void add_export(CLI::App& app, int& code) {
+  auto o = std::make_shared<ExportOptions>();
+  CLI::App* c = app.add_subcommand("export", "a bed as a file of another kind");
+  c->add_option("bed", o->bed, "bed.h5 or result folder")->required();
+  c->add_option("--to", o->to, "stl | vtu | csv | obj")->check(CLI::IsMember({"stl", "vtu", "csv", "obj"}));
+  c->add_option("--out", o->out, "file to write (default: bed.<kind> beside the bed)");
+  c->footer("Example:\n  packbed export results/quick --to stl --out bed.stl");
+  c->callback([o, &code] { code = export_bed(*o); });
+}
+
+}  // namespace
+}  // namespace packbed::cli
+
+int main(int argc, char** argv) {
+  using namespace packbed;
+  CLI::App app{"packbed pours CAD pellets into CAD containers and tells what the bed is like."};
+  app.set_version_flag("--version", "packbed " PACKBED_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 good; 1 the run ended but its audit failed; 2 wrong input; 3 internal error.");
+  int code = 0;
+  cli::add_run(app, code);
+  cli::add_resume(app, code);
+  cli::add_voxelise(app, code);
+  cli::add_analyse(app, code);
+  cli::add_check(app, code);
+  cli::add_export(app, code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const InputError& e) {
+    std::fprintf(stderr, "packbed: %s\n", e.what());
+    return 2;
+  } catch (const SystemError& e) {
+    std::fprintf(stderr, "packbed: %s\n", e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "packbed: internal error: %s\n", e.what());
+    return 3;
+  }
+  return code;
+}

@@ -1,0 +1,54 @@
+#pragma once
+// What every packing method takes and gives, and how a running one is watched.
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bed/packed_bed.hpp"
+#include "bed/run_record.hpp"
+#include "bed/scene.hpp"
+
+namespace packbed {
+
+struct Progress {
+  double fraction = 0;  // of the whole run, estimated, 0 to 1
+  double simulated_s = 0;
+  int fed = 0, asked = 0;
+  std::string phase;  // "feeding", "settling", "waiting for room"
+};
+
+/// Energies of one pellet at one instant [J].
+struct PelletEnergy {
+  double translation = 0, rotation = 0, height = 0;
+};
+
+struct Snapshot {
+  double time = 0;  // simulated [s]
+  const std::vector<Pellet>* pellets = nullptr;
+  std::vector<PelletEnergy> energies;
+  double elastic = 0;  // stored in all contacts [J]
+};
+
+/// How the world outside sees a running packer. All calls come from the thread that runs it; empty ones are
+/// skipped.
+struct Watch {
+  std::function<void(const Progress&)> progress;               // a few times a second
+  std::function<void(std::span<const std::byte>)> checkpoint;  // the whole state of the run
+  std::function<void(const Snapshot&)> snapshot;               // every output.trajectory_interval
+  const std::atomic<bool>* stop = nullptr;                     // set: write a checkpoint and return
+};
+
+struct PackResult {
+  PackedBed bed;
+  RunRecord record;
+  bool stopped = false;  // by Watch::stop; the last checkpoint continues it
+};
+
+/// Rigid bodies with penalty contact. `state` continues from a checkpoint of the same scene, bit for bit.
+/// Throws InputError for a scene that cannot be packed as given.
+PackResult pack_mesh(const Scene& scene, const Watch& watch, std::span<const std::byte> state = {});
+
+}  // namespace packbed

@@ -1,0 +1,36 @@
+#pragma once
+// What holds the bed. Axes of the bed: z up, the floor at z = 0, the container's axis through the origin.
+#include <string>
+#include <string_view>
+
+#include "mesh/mesh.hpp"
+
+namespace packbed {
+
+enum class ContainerKind {
+  none,   // free space: isolated clouds, single impacts between pellets
+  plane,  // a floor at z = 0 without end
+  tube,   // a round vertical tube of inner radius `radius` on a flat floor at z = 0, open above
+  mesh    // any closed solid (the wall material); pellets stay out of it
+};
+std::string_view to_string(ContainerKind);
+
+struct Container {
+  ContainerKind kind = ContainerKind::tube;
+  std::string name, source;
+  double radius = 0;  // tube: inner radius [m]; mesh: radius of the largest upright cylinder round the axis
+                      // that fits at mid-height [m]
+  double height = 0;  // of the inside, floor to rim [m]
+  TriangleMesh surface;    // of the wall solid as read, in bed axes; empty for none and plane, and for a tube
+                           // given by its sizes
+  double mesh_volume = 0;  // of the wall solid as read [m3]
+};
+
+Container make_tube(const std::string& name, double inner_diameter, double height);
+/// From a checked closed mesh of the wall solid; moves it so that the floor's inner face is at z = 0 and the
+/// axis at the origin when it can tell. Recognises a tube with a flat floor within kRecogniseTolerance unless
+/// `recognise` is false.
+Container make_container(const std::string& name, const std::string& source, const TriangleMesh& mesh,
+                         bool recognise = true);
+
+}  // namespace packbed
