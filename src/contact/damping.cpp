@@ -6,8 +6,8 @@
 namespace packbed {
 namespace {
 
-/// w0 t_c. The force vanishes when tan(s w0 t) = -2 zeta s / (1 - 2 zeta^2), s = sqrt(|1 - zeta^2|); hyperbolic
-/// for zeta > 1, and 2 at zeta = 1.
+/// w0 t_c. The force vanishes when tan(s w0 t) = -2 zeta s / (1 - 2 zeta^2), s = sqrt(|1 - zeta^2|);
+/// hyperbolic for zeta > 1, and 2 at zeta = 1.
 double duration(double zeta) {
   const double s2 = 1 - zeta * zeta, s = std::sqrt(std::abs(s2));
   if (s < 1e-6) return 2;  // the next term is of the order of s^2
@@ -35,7 +35,9 @@ double damping_from_restitution(double restitution) {
   return 0.5 * (low + high);
 }
 
-double contact_time_factor(double zeta) { return duration(zeta); }
+double contact_time_factor(double zeta) {
+  return duration(zeta);
+}
 
 double peak_overlap_factor(double zeta) {
   const double s2 = 1 - zeta * zeta, s = std::sqrt(std::abs(s2));

@@ -1,7 +1,8 @@
 #pragma once
-// The linear spring-dashpot that ends when its force does: m x'' + c x' + k x = 0 from x = 0 at speed v until the
-// force k x + c x' is no longer repulsive (Schwager & Pöschel, Granular Matter 9, 2007). With m the reduced mass at
-// the contact, w0 = sqrt(k / m) and the damping ratio zeta = c / (2 sqrt(k m)), everything below depends on zeta only.
+// The linear spring-dashpot that ends when its force does: m x'' + c x' + k x = 0 from x = 0 at speed v until
+// the force k x + c x' is no longer repulsive (Schwager & Pöschel, Granular Matter 9, 2007). With m the
+// reduced mass at the contact, w0 = sqrt(k / m) and the damping ratio zeta = c / (2 sqrt(k m)), everything
+// below depends on zeta only.
 
 namespace packbed {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <span>
 
@@ -36,24 +36,39 @@ constexpr Unit kEnergy[] = {{"J", 0}, {"mJ", -3}, {"uJ", -6}, {"nJ", -9}};
 
 std::span<const Unit> units(Dimension d) {
   switch (d) {
-    case Dimension::length: return kLength;
-    case Dimension::area: return kArea;
-    case Dimension::volume: return kVolume;
-    case Dimension::mass: return kMass;
-    case Dimension::density: return kDensity;
-    case Dimension::time: return kTime;
-    case Dimension::speed: return kSpeed;
-    case Dimension::acceleration: return kAcceleration;
-    case Dimension::angle: return kAngle;
-    case Dimension::angular_velocity: return kAngularVelocity;
-    case Dimension::force: return kForce;
-    case Dimension::stiffness: return kStiffness;
-    case Dimension::energy: return kEnergy;
+    case Dimension::length:
+      return kLength;
+    case Dimension::area:
+      return kArea;
+    case Dimension::volume:
+      return kVolume;
+    case Dimension::mass:
+      return kMass;
+    case Dimension::density:
+      return kDensity;
+    case Dimension::time:
+      return kTime;
+    case Dimension::speed:
+      return kSpeed;
+    case Dimension::acceleration:
+      return kAcceleration;
+    case Dimension::angle:
+      return kAngle;
+    case Dimension::angular_velocity:
+      return kAngularVelocity;
+    case Dimension::force:
+      return kForce;
+    case Dimension::stiffness:
+      return kStiffness;
+    case Dimension::energy:
+      return kEnergy;
   }
   return {};
 }
 
-bool is_space(char c) { return c == ' ' || c == '\t'; }
+bool is_space(char c) {
+  return c == ' ' || c == '\t';
+}
 
 std::string_view trimmed(std::string_view s) {
   while (!s.empty() && is_space(s.front())) s.remove_prefix(1);
@@ -132,23 +147,52 @@ const Unit* find_unit(std::string_view name, Dimension d) {
   return nullptr;
 }
 
+/// The shortest decimal x for which parse_quantity("x unit") is `si`, bit for bit; empty when there is none.
+std::string exact_number(double si, const Unit& u, Dimension d) {
+  for (int precision = 0; precision <= 17; ++precision) {
+    // so many digits, with the decimal point moved by the unit's power of ten
+    const std::string scientific = fmt::format("{:.{}e}", si / u.factor, precision);
+    const std::size_t e = scientific.find('e');
+    const int exponent = std::stoi(scientific.substr(e + 1)) - u.power;
+    const std::string moved = fmt::format("{}e{}", scientific.substr(0, e), exponent);
+    const double in_unit = std::strtod(moved.c_str(), nullptr);
+    if (!std::isfinite(in_unit)) return "";
+    std::string number = fmt::format("{}", in_unit);
+    if (parse_quantity(fmt::format("{} {}", number, u.name), d) == si) return number;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string_view to_string(Dimension d) {
   switch (d) {
-    case Dimension::length: return "length";
-    case Dimension::area: return "area";
-    case Dimension::volume: return "volume";
-    case Dimension::mass: return "mass";
-    case Dimension::density: return "density";
-    case Dimension::time: return "time";
-    case Dimension::speed: return "speed";
-    case Dimension::acceleration: return "acceleration";
-    case Dimension::angle: return "angle";
-    case Dimension::angular_velocity: return "angular velocity";
-    case Dimension::force: return "force";
-    case Dimension::stiffness: return "stiffness";
-    case Dimension::energy: return "energy";
+    case Dimension::length:
+      return "length";
+    case Dimension::area:
+      return "area";
+    case Dimension::volume:
+      return "volume";
+    case Dimension::mass:
+      return "mass";
+    case Dimension::density:
+      return "density";
+    case Dimension::time:
+      return "time";
+    case Dimension::speed:
+      return "speed";
+    case Dimension::acceleration:
+      return "acceleration";
+    case Dimension::angle:
+      return "angle";
+    case Dimension::angular_velocity:
+      return "angular velocity";
+    case Dimension::force:
+      return "force";
+    case Dimension::stiffness:
+      return "stiffness";
+    case Dimension::energy:
+      return "energy";
   }
   return "";
 }
@@ -180,12 +224,13 @@ std::string format_quantity(double si, Dimension d, int digits) {
   const Unit* best = &units(d)[0];
   double best_badness = 1e300;
   for (const Unit& u : units(d)) {
-    if (u.factor != 1 && d != Dimension::angle) continue;  // seconds rather than minutes, metres rather than inches
+    if (u.factor != 1 && d != Dimension::angle)
+      continue;  // seconds rather than minutes, metres rather than inches
     const double number = std::abs(si) / (u.factor * std::pow(10.0, u.power));
-    const double badness = si == 0                        ? 0
-                           : number < 1                   ? 3 - std::log10(number)
+    const double badness = si == 0                       ? 0
+                           : number < 1                  ? 3 - std::log10(number)
                            : number < 1000 * (1 - 1e-12) ? 0
-                                                          : std::log10(number);
+                                                         : std::log10(number);
     if (badness < best_badness) {
       best = &u;
       best_badness = badness;
@@ -195,28 +240,24 @@ std::string format_quantity(double si, Dimension d, int digits) {
 }
 
 std::string format_quantity_exactly(double si, Dimension d) {
-  std::string shortest;
+  std::string best;
+  std::size_t best_length = 0;
+  int best_power = 0;
   for (const Unit& u : units(d)) {
-    // fewer digits first, each time with the decimal point moved by the unit's power of ten
-    const double number = si / u.factor;
-    for (int precision = 0; precision <= 17; ++precision) {
-      const std::string scientific = fmt::format("{:.{}e}", number, precision);
-      const std::size_t e = scientific.find('e');
-      const int exponent = std::stoi(scientific.substr(e + 1)) - u.power;
-      const double in_unit = std::stod(fmt::format("{}e{}", scientific.substr(0, e), exponent));
-      const std::string text = fmt::format("{} {}", in_unit, u.name);
-      if (parse_quantity(text, d) != si) continue;
-      if (shortest.empty() || text.size() < shortest.size()) shortest = text;
-      break;
+    const std::string number = exact_number(si, u, d);
+    if (number.empty()) continue;
+    // the shortest number, best from 1 to 1000; of two alike the later (smaller) unit: 44.5 mm, not 4.45 cm.
+    // Inches, minutes and degrees only where they save much.
+    const double size = std::abs(std::strtod(number.c_str(), nullptr));
+    const std::size_t length =
+        number.size() + (u.factor != 1 ? 5 : 0) + (size != 0 && (size < 1 || size >= 1000) ? 1 : 0);
+    if (best.empty() || length < best_length || (length == best_length && u.power != best_power)) {
+      best = fmt::format("{} {}", number, u.name);
+      best_length = length;
+      best_power = u.power;
     }
   }
-  return shortest;
-}
-
-double length_unit(std::string_view unit, const std::string& where) {
-  const Unit* u = find_unit(trimmed(unit), Dimension::length);
-  if (!u) throw InputError(where, fmt::format("\"{}\"", unit), "one of " + accepted_units(Dimension::length));
-  return parse_quantity(fmt::format("1 {}", u->name), Dimension::length, where);
+  return best;
 }
 
 }  // namespace packbed

@@ -25,19 +25,18 @@ std::string_view to_string(Dimension);
 
 /// "3.42 mm" -> 0.00342: one decimal number, then one unit of the dimension; in SI. Units that are powers of
 /// ten of the SI unit are read as one decimal number, so that "3.42 mm" is exactly the double 0.00342. Throws
-/// InputError, with `where` in front, for anything else (no unit, unknown unit, nan, inf, hexadecimal, trailing text).
+/// InputError, with `where` in front, for anything else (no unit, unknown unit, nan, inf, hexadecimal,
+/// trailing text).
 double parse_quantity(std::string_view text, Dimension, const std::string& where = "quantity");
 
 /// "m, cm, mm, um, nm, in": what parse_quantity accepts, SI unit first.
 std::string accepted_units(Dimension);
 
-/// For messages: rounded to `digits` significant digits, in the unit that gives a number from 1 to 1000 if one does.
+/// For messages: rounded to `digits` significant digits, in the unit that gives a number from 1 to 1000 if
+/// one does.
 std::string format_quantity(double si, Dimension, int digits = 4);
 
 /// For files: parse_quantity gives back the same double.
 std::string format_quantity_exactly(double si, Dimension);
-
-/// Of a unit of length alone ("mm" -> 0.001), for files that carry none. Throws InputError.
-double length_unit(std::string_view unit, const std::string& where);
 
 }  // namespace packbed

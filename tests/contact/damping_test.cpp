@@ -58,7 +58,8 @@ TEST(Damping, PublishedTableOfTheLaw) {
 }
 
 TEST(Damping, ClosedFormsAgreeWithIntegrationAlsoPastCriticalDamping) {
-  for (const double zeta : {0.0, 0.1, 0.4, 0.6, 0.70710678, 0.75, 0.95, 0.9999999, 1.0, 1.0000001, 1.3, 3.0}) {
+  for (const double zeta :
+       {0.0, 0.1, 0.4, 0.6, 0.70710678, 0.75, 0.95, 0.9999999, 1.0, 1.0000001, 1.3, 3.0}) {
     const Impact impact = integrated(zeta);
     EXPECT_NEAR(restitution_from_damping(zeta), impact.restitution, 2e-6) << zeta;
     EXPECT_NEAR(contact_time_factor(zeta), impact.duration, 2e-6) << zeta;
