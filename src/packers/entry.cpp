@@ -1,0 +1,176 @@
+#include "packers/entry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "geometry/triangle.hpp"
+#include "math/error.hpp"
+
+namespace packbed {
+namespace {
+
+/// The point of a convex body, or vertex of a mesh, farthest along `direction` (world), in world axes.
+Vec3 support(const Shape& shape, double scale, const Pose& pose, const Vec3& direction) {
+  const Vec3 d = pose.rotation.conjugate() * direction;
+  Vec3 local = Vec3::Zero();
+  if (shape.kind == ShapeClass::sphere) {
+    local = d.normalized() * shape.radius;
+  } else if (shape.kind == ShapeClass::cylinder) {
+    const double across = std::hypot(d.x(), d.y());
+    const double r = across > 0 ? shape.radius / across : 0;
+    local = Vec3(r * d.x(), r * d.y(), std::copysign(shape.half_height, d.z()));
+  } else {
+    double best = -std::numeric_limits<double>::infinity();
+    for (const Vec3& v : shape.surface.vertices)
+      if (v.dot(d) > best) best = v.dot(d), local = v;
+  }
+  return pose.position + pose.rotation * (local * scale);
+}
+
+/// Solid angle of the triangle seen from p (van Oosterom & Strackee 1983); the sum over a closed mesh is
+/// 4 pi inside and 0 outside.
+double solid_angle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = a - p, v = b - p, w = c - p;
+  const double lu = u.norm(), lv = v.norm(), lw = w.norm();
+  return 2 * std::atan2(u.dot(v.cross(w)), lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv);
+}
+
+struct Wall {
+  double distance = std::numeric_limits<double>::infinity();  // of the nearest point of its surface [m]
+  bool inside = false;                                        // of the solid
+};
+
+Wall wall_at(const TriangleMesh& mesh, const Vec3& p) {
+  Wall wall;
+  double angle = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
+    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
+    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    angle += solid_angle(p, a, b, c);
+    wall.distance = std::min(wall.distance, (closest_on_triangle(p, a, b, c).point - p).norm());
+  }
+  wall.inside = angle > 2 * kPi;
+  return wall;
+}
+
+double container_overlap(const Container& container, const Shape& shape, const Pellet& pellet) {
+  double overlap = 0;
+  if (container.kind == ContainerKind::plane || container.kind == ContainerKind::tube)
+    overlap = -lowest_point(shape, pellet.scale, pellet.pose);
+  if (container.kind == ContainerKind::tube)
+    overlap = std::max(overlap, radial_extent(shape, pellet.scale, pellet.pose) - container.radius);
+  if (container.kind == ContainerKind::mesh) {
+    const Wall wall = wall_at(container.surface, pellet.pose.position);
+    if (wall.inside) overlap = wall.distance;
+  }
+  return std::max(0.0, overlap);
+}
+
+std::string micrometres(double length) {
+  return fmt::format("{:.4g} um", length * 1e6);
+}
+
+void check_pose(const Pellet& p) {
+  const bool finite = p.pose.position.allFinite() && p.pose.rotation.coeffs().allFinite() &&
+                      p.velocity.allFinite() && p.spin.allFinite();
+  if (!finite || std::abs(p.pose.rotation.norm() - 1) > 1e-6)
+    throw InputError(fmt::format("placed pellet {}", p.id),
+                     "a pose or velocity that is not a number, or a rotation that is none",
+                     "finite numbers and a quaternion (w, x, y, z) of length 1");
+}
+
+}  // namespace
+
+double radial_extent(const Shape& shape, double scale, const Pose& pose) {
+  const auto radius_of = [](const Vec3& x) { return std::hypot(x.x(), x.y()); };
+  if (shape.kind == ShapeClass::mesh) {
+    double extent = 0;
+    for (const Vec3& v : shape.surface.vertices)
+      extent = std::max(extent, radius_of(pose.to_world(v * scale)));
+    return extent;
+  }
+  // The radius is a convex function: going to the body's farthest point along the present radius never
+  // lowers it. Eight starts find all of the at most four local maxima of two rims.
+  double extent = 0;
+  for (int start = 0; start < 8; ++start) {
+    const double angle = kPi / 4 * start;
+    Vec3 direction(std::cos(angle), std::sin(angle), 0);
+    for (int turn = 0; turn < 100; ++turn) {
+      const Vec3 x = support(shape, scale, pose, direction);
+      const double r = radius_of(x);
+      if (!(r > extent) && turn > 20) break;
+      extent = std::max(extent, r);
+      direction = Vec3(x.x(), x.y(), 0);
+      if (!(r > 0)) break;
+    }
+  }
+  return extent;
+}
+
+double lowest_point(const Shape& shape, double scale, const Pose& pose) {
+  return support(shape, scale, pose, Vec3(0, 0, -1)).z();
+}
+
+bool sphere_inside(const Container& container, const Vec3& centre, double radius) {
+  constexpr double kRounding = 1e-9;  // of the size
+  switch (container.kind) {
+    case ContainerKind::none:
+      return true;
+    case ContainerKind::plane:
+      return centre.z() >= radius;
+    case ContainerKind::tube:
+      return centre.z() >= radius &&
+             std::hypot(centre.x(), centre.y()) + radius <= container.radius * (1 + kRounding);
+    case ContainerKind::mesh: {
+      const Wall wall = wall_at(container.surface, centre);
+      return !wall.inside && wall.distance >= radius * (1 - kRounding);
+    }
+  }
+  return false;
+}
+
+void check_placed(const Scene& scene, const OverlapTest& test, std::span<const Pellet> pellets) {
+  const double allowed = std::max(scene.pellet_contact.allowed_overlap, scene.overlap_limit);
+  const double allowed_wall = std::max(scene.wall_contact.allowed_overlap, scene.overlap_limit);
+  const auto thickness = [&](const Pellet& p) {
+    return scene.pellets[p.shape].shape->smallest_thickness * p.scale;
+  };
+  for (const Pellet& p : pellets) {
+    check_pose(p);
+    const double overlap = container_overlap(scene.container, *scene.pellets[p.shape].shape, p);
+    if (!p.fixed && overlap > allowed_wall * thickness(p))
+      throw InputError(fmt::format("placed pellet {}", p.id),
+                       fmt::format("{} outside of the container", micrometres(overlap)),
+                       fmt::format("at most {}", micrometres(allowed_wall * thickness(p))),
+                       "move it inwards, or make it fixed");
+  }
+  // pairs whose height ranges meet, from the lowest upwards
+  std::vector<std::size_t> order(pellets.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto low = [&](std::size_t i) {
+    return pellets[i].pose.position.z() - test.bounding_radius(pellets[i]);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return low(a) < low(b); });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Pellet& a = pellets[order[i]];
+    const double top = a.pose.position.z() + test.bounding_radius(a);
+    for (std::size_t j = i + 1; j < order.size() && low(order[j]) < top; ++j) {
+      const Pellet& b = pellets[order[j]];
+      if (a.fixed && b.fixed) continue;
+      const double limit = allowed * std::min(thickness(a), thickness(b));
+      const double overlap = test.depth(a, b);
+      if (overlap > limit)
+        throw InputError(fmt::format("placed pellets {} and {}", std::min(a.id, b.id), std::max(a.id, b.id)),
+                         fmt::format("an overlap of {}", micrometres(overlap)),
+                         fmt::format("at most {}", micrometres(limit)),
+                         "move one of them, or make both fixed");
+    }
+  }
+}
+
+}  // namespace packbed

@@ -1,0 +1,297 @@
+#include "packers/feed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "math/error.hpp"
+#include "math/random.hpp"
+#include "packers/entry.hpp"
+#include "packers/layer.hpp"
+#include "packers/overlap_test.hpp"
+
+namespace packbed {
+namespace {
+
+constexpr double kWait = 0.25;         // of the interval, between tries while there is no room
+constexpr int kTurns = 8;              // patterns tried for one layer before it waits
+constexpr int kDraws = 100;            // points tried for one pellet of a handful before it waits
+constexpr double kDensityGuess = 0.6;  // packing density, only for estimates of how many will be asked for
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+std::string millimetres(double length) {
+  return fmt::format("{:.6g} mm", length * 1e3);
+}
+
+double mass_of(const Scene& scene, std::uint32_t kind, double scale) {
+  return scene.pellets[kind].shape->volume * scale * scale * scale * scene.pellets[kind].density;
+}
+
+std::uint32_t draw_kind(const Scene& scene, std::uint32_t id) {
+  if (scene.pellets.size() == 1) return 0;
+  double u = Random(scene.seed, Stream::feed_shape, id).uniform();
+  for (std::uint32_t k = 0; k + 1 < scene.pellets.size(); ++k) {
+    u -= scene.pellets[k].share;
+    if (u < 0) return k;
+  }
+  return static_cast<std::uint32_t>(scene.pellets.size() - 1);
+}
+
+/// All of the pellet but its place.
+Pellet make_pellet(const Scene& scene, std::uint32_t id) {
+  Pellet pellet;
+  pellet.id = id;
+  pellet.shape = draw_kind(scene, id);
+  pellet.pose.rotation = Random(scene.seed, Stream::feed_rotation, id).rotation();
+  if (scene.feed.speed > 0)
+    pellet.velocity = scene.feed.speed * Random(scene.seed, Stream::feed_velocity, id).on_sphere();
+  return pellet;
+}
+
+std::vector<Pellet> placed_pellets(const Scene& scene) {
+  std::vector<Pellet> pellets;
+  for (const PlacedPellet& placed : scene.feed.placed) {
+    Pellet pellet;
+    pellet.id = static_cast<std::uint32_t>(pellets.size());
+    pellet.shape = placed.kind;
+    pellet.pose = placed.pose;
+    pellet.velocity = placed.velocity;
+    pellet.spin = placed.spin;
+    pellet.fixed = placed.fixed;
+    if (placed.kind >= scene.pellets.size())
+      throw InputError(fmt::format("placed pellet {}", pellet.id), fmt::format("pellet kind {}", placed.kind),
+                       fmt::format("0 to {}", scene.pellets.size() - 1));
+    pellets.push_back(pellet);
+  }
+  return pellets;
+}
+
+/// Radius of the circle that centres may enter in.
+double feed_circle(const Scene& scene, double pellet_radius) {
+  const bool walls =
+      scene.container.kind == ContainerKind::tube || scene.container.kind == ContainerKind::mesh;
+  const double given = scene.feed.radius;
+  if (!walls) {
+    if (given > 0) return given;
+    throw InputError("feed.radius", "none", "a radius greater than 0",
+                     "a container without walls does not say how wide the feed is");
+  }
+  const double widest = scene.container.radius - pellet_radius;
+  if (widest < 0)
+    throw InputError(
+        "feed", fmt::format("a pellet that needs {} to turn", millimetres(2 * pellet_radius)),
+        fmt::format("less than the container's inner diameter, {}", millimetres(2 * scene.container.radius)),
+        "not one pellet can enter: check the units of both files, or take a wider container");
+  if (given > widest * (1 + 1e-9))
+    throw InputError("feed.radius", millimetres(given), fmt::format("at most {}", millimetres(widest)),
+                     "so that every rotation of a pellet stays clear of the wall");
+  return given > 0 ? given : widest;
+}
+
+/// What the settings must be for layers and handfuls.
+void check_settings(const Scene& scene, double pellet_radius) {
+  const Feed& feed = scene.feed;
+  if (!feed.count && !feed.height && !feed.mass)
+    throw InputError("feed", "no end", "a count, a height or a mass", "add for example feed.count = 300");
+  if (!(feed.interval > 0)) throw InputError("feed.interval", "0", "greater than 0");
+  if (feed.per_layer < 1) throw InputError("feed.per_layer", fmt::format("{}", feed.per_layer), "at least 1");
+  const bool floor = scene.container.kind != ContainerKind::none;
+  if ((floor || feed.above_bed) && feed.drop_height < pellet_radius)
+    throw InputError("feed.drop_height", millimetres(feed.drop_height),
+                     fmt::format("at least {}", millimetres(pellet_radius)),
+                     "the pellet's bounding sphere has to be above the floor");
+}
+
+}  // namespace
+
+struct Feeder::Plan {
+  explicit Plan(const Scene& s) : scene(s), test(s.pellets) {
+    for (const PelletKind& kind : scene.pellets) radius = std::max(radius, kind.shape->bounding_radius);
+    if (scene.feed.kind == FeedKind::placed) {
+      placed = placed_pellets(scene);
+      check_placed(scene, test, placed);
+      return;
+    }
+    check_settings(scene, radius);
+    circle = feed_circle(scene, radius);
+    if (scene.feed.kind == FeedKind::layers) {
+      loose = layer_pattern(circle, 2 * radius, scene.feed.per_layer, true);
+      dense = layer_pattern(circle, 2 * radius, scene.feed.per_layer, false);
+    }
+    check_wall();
+  }
+
+  /// A mesh container has to leave room somewhere at a fixed drop height.
+  void check_wall() const {
+    if (scene.container.kind != ContainerKind::mesh || scene.feed.above_bed) return;
+    Random random(scene.seed, Stream::feed_position, 0xffffffff);
+    for (int draw = 0; draw < kDraws; ++draw)
+      if (sphere_inside(scene.container, on_disc(random, scene.feed.drop_height), radius)) return;
+    throw InputError("feed.drop_height", millimetres(scene.feed.drop_height),
+                     fmt::format("a height at which a sphere of {} fits between the container's walls",
+                                 millimetres(2 * radius)),
+                     "change the height, or give feed.radius");
+  }
+
+  Vec3 on_disc(Random& random, double height) const {
+    const double r = circle * std::sqrt(random.uniform()), angle = random.uniform(0, 2 * kPi);
+    return {r * std::cos(angle), r * std::sin(angle), height};
+  }
+
+  /// Room for this pellet among the others and inside the container.
+  bool free(const Pellet& pellet, std::span<const Pellet> near, std::span<const Pellet> entering) const {
+    const auto hits = [&](const Pellet& other) { return test.overlap(pellet, other); };
+    if (std::any_of(near.begin(), near.end(), hits)) return false;
+    if (std::any_of(entering.begin(), entering.end(), hits)) return false;
+    return sphere_inside(scene.container, pellet.pose.position, test.bounding_radius(pellet));
+  }
+
+  /// How many of the pellets that follow `fed` may enter together before the count or the mass is reached.
+  int allowance(int fed, double mass, int most) const {
+    int n = scene.feed.count ? std::min(most, *scene.feed.count - fed) : most;
+    if (!scene.feed.mass) return n;
+    int within = 0;
+    while (within < n && mass < *scene.feed.mass) {
+      mass += mass_of(scene, draw_kind(scene, static_cast<std::uint32_t>(fed + within)), 1);
+      ++within;
+    }
+    return within;
+  }
+
+  int expected() const {
+    const Feed& feed = scene.feed;
+    if (feed.kind == FeedKind::placed) return static_cast<int>(placed.size());
+    double mean_volume = 0, mean_mass = 0;
+    for (std::uint32_t k = 0; k < scene.pellets.size(); ++k) {
+      mean_volume += scene.pellets[k].share * scene.pellets[k].shape->volume;
+      mean_mass += scene.pellets[k].share * mass_of(scene, k, 1);
+    }
+    double n = feed.count ? *feed.count : kForever;
+    if (feed.mass) n = std::min(n, std::ceil(*feed.mass / mean_mass));
+    if (!feed.count && !feed.mass) {
+      const double width = scene.container.radius > 0 ? scene.container.radius : circle + radius;
+      n = std::ceil(kDensityGuess * kPi * width * width * *feed.height / mean_volume);
+    }
+    return static_cast<int>(std::min(n, 2e9));
+  }
+
+  const Scene scene;
+  OverlapTest test;
+  double radius = 0;  // of the largest bounding sphere [m]
+  double circle = 0;  // radius of the feed circle [m]
+  LayerPattern loose, dense;
+  std::vector<Pellet> placed;
+};
+
+Feeder::Feeder(const Scene& scene) : plan_(std::make_unique<Plan>(scene)) {
+  if (plan_->expected() <= 0) state_.done = 1;
+}
+Feeder::~Feeder() = default;
+Feeder::Feeder(Feeder&&) noexcept = default;
+Feeder& Feeder::operator=(Feeder&&) noexcept = default;
+
+double Feeder::next_time() const {
+  return state_.done ? kForever : state_.next_time;
+}
+int Feeder::fed() const {
+  return state_.fed;
+}
+double Feeder::fed_mass() const {
+  return state_.mass;
+}
+int Feeder::asked() const {
+  return state_.done ? state_.fed : std::max(state_.fed, plan_->expected());
+}
+bool Feeder::done() const {
+  return state_.done != 0;
+}
+bool Feeder::waiting() const {
+  return state_.waiting != 0;
+}
+
+std::vector<Pellet> Feeder::enter(double time, std::span<const Pellet> present, double surface) {
+  const Scene& scene = plan_->scene;
+  const Feed& feed = scene.feed;
+  if (state_.done || time < state_.next_time) return {};
+  std::vector<Pellet> entering;
+  int wanted = 0;
+  if (feed.kind == FeedKind::placed) {
+    entering = plan_->placed;
+    wanted = static_cast<int>(entering.size());
+  } else {
+    if (feed.height && surface >= *feed.height) {
+      state_.done = 1;
+      state_.waiting = 0;
+      return {};
+    }
+    const double height = feed.drop_height + (feed.above_bed ? surface : 0.0);
+    std::vector<Pellet> near;  // nothing enters below this, however many planes a layer has
+    for (const Pellet& p : present)
+      if (p.pose.position.z() + plan_->test.bounding_radius(p) > height - plan_->radius * (1 + 1e-6))
+        near.push_back(p);
+    wanted = plan_->allowance(state_.fed, state_.mass, feed.per_layer);
+    entering = feed.kind == FeedKind::layers ? enter_layer(near, height, wanted)
+                                             : enter_handful(near, height, wanted);
+  }
+  for (const Pellet& p : entering) state_.mass += mass_of(scene, p.shape, p.scale);
+  state_.fed += static_cast<std::int32_t>(entering.size());
+  state_.waiting = static_cast<int>(entering.size()) < wanted;
+  state_.attempt = entering.empty() ? state_.attempt + 1 : 0;
+  state_.next_time += entering.empty() ? kWait * feed.interval : feed.interval;
+  if (feed.kind == FeedKind::placed || plan_->allowance(state_.fed, state_.mass, 1) < 1) state_.done = 1;
+  return entering;
+}
+
+std::vector<Pellet> Feeder::enter_layer(std::span<const Pellet> near, double height, int count) {
+  const std::uint32_t first = static_cast<std::uint32_t>(state_.fed);
+  for (int turn = 0; turn < kTurns; ++turn) {
+    // the later tries take the densest pattern, which has more sites than are needed to choose from
+    const LayerPattern& pattern = turn < kTurns / 2 ? plan_->loose : plan_->dense;
+    const int per_plane = std::min(plan_->scene.feed.per_layer, static_cast<int>(pattern.sites.size()));
+    const int planes = (count + per_plane - 1) / per_plane;
+    Random random(plan_->scene.seed, Stream::feed_position, first,
+                  static_cast<std::uint32_t>(state_.attempt * kTurns + turn));
+    std::vector<Pellet> layer;
+    for (int plane = 0; plane < planes; ++plane)
+      for (const Vec2& site : shaken(pattern, plan_->circle, random)) {
+        if (static_cast<int>(layer.size()) == count) break;
+        Pellet pellet = make_pellet(plan_->scene, first + static_cast<std::uint32_t>(layer.size()));
+        pellet.pose.position = {site.x(), site.y(), height + plane * 2 * plan_->radius * (1 + 1e-6)};
+        if (plan_->free(pellet, near, {})) layer.push_back(pellet);
+      }
+    if (static_cast<int>(layer.size()) == count) return layer;
+  }
+  return {};
+}
+
+std::vector<Pellet> Feeder::enter_handful(std::span<const Pellet> near, double height, int count) {
+  std::vector<Pellet> handful;
+  for (int i = 0; i < count; ++i) {
+    Pellet pellet = make_pellet(plan_->scene, static_cast<std::uint32_t>(state_.fed + i));
+    Random random(plan_->scene.seed, Stream::feed_position, pellet.id,
+                  static_cast<std::uint32_t>(state_.attempt));
+    bool free = false;
+    for (int draw = 0; draw < kDraws && !free; ++draw) {
+      pellet.pose.position = plan_->on_disc(random, height);
+      free = plan_->free(pellet, near, handful);
+    }
+    if (!free) break;
+    handful.push_back(pellet);
+  }
+  return handful;
+}
+
+std::vector<std::byte> Feeder::save() const {
+  std::vector<std::byte> bytes(sizeof(State));
+  std::memcpy(bytes.data(), &state_, sizeof(State));
+  return bytes;
+}
+
+void Feeder::restore(std::span<const std::byte> state) {
+  if (state.size() != sizeof(State)) throw SystemError("checkpoint: the feed's state has a wrong length");
+  std::memcpy(&state_, state.data(), sizeof(State));
+}
+
+}  // namespace packbed
