@@ -223,7 +223,8 @@ TEST(Feed, APelletsRotationAndKindDependOnItsNumberOnly) {
 
 TEST(Feed, WaitsWhereThereIsNoRoomAndSaysSo) {
   for (const FeedKind kind : {FeedKind::layers, FeedKind::pour}) {
-    Scene scene = a38_scene(kind, 49);
+    Scene scene = a38_scene(kind, 20);
+    scene.feed.per_layer = 20;
     Feeder feeder(scene);
     Pellet plug;  // a ball that fills the tube at the drop height
     plug.shape = 0;
@@ -235,7 +236,7 @@ TEST(Feed, WaitsWhereThereIsNoRoomAndSaysSo) {
     EXPECT_FALSE(feeder.done());
     EXPECT_DOUBLE_EQ(feeder.next_time(), 0.25 * scene.feed.interval);
     EXPECT_TRUE(feeder.enter(0.1 * scene.feed.interval, {}, 0).empty());  // before its time
-    EXPECT_EQ(feeder.enter(feeder.next_time(), {}, 0).size(), 49u);
+    EXPECT_EQ(feeder.enter(feeder.next_time(), {}, 0).size(), 20u);
     EXPECT_FALSE(feeder.waiting());
     EXPECT_TRUE(feeder.done());
     EXPECT_TRUE(std::isinf(feeder.next_time()));
