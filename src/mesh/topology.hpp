@@ -1,0 +1,51 @@
+#pragma once
+// How the triangles of a mesh hang together: edges, pieces, orientation. Plain loops over sorted edges, so
+// the order of everything is that of the file.
+#include <cstdint>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace packbed {
+
+inline const Vec3& corner(const TriangleMesh& mesh, const std::array<std::int32_t, 3>& triangle, int i) {
+  return mesh.vertices[static_cast<std::size_t>(triangle[static_cast<std::size_t>(i)])];
+}
+/// Half the cross product of two sides: outward, as long as the triangle is large [m2].
+inline Vec3 triangle_area_vector(const TriangleMesh& mesh, const std::array<std::int32_t, 3>& t) {
+  return 0.5 * (corner(mesh, t, 1) - corner(mesh, t, 0)).cross(corner(mesh, t, 2) - corner(mesh, t, 0));
+}
+inline Vec3 triangle_centre(const TriangleMesh& mesh, const std::array<std::int32_t, 3>& t) {
+  return (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3;
+}
+
+/// One side of one triangle.
+struct EdgeUse {
+  std::int32_t low = 0, high = 0;  // vertices, low < high
+  std::int32_t triangle = 0;
+  bool forward = true;  // the triangle runs from low to high
+};
+/// All sides of all triangles, those of the same edge in a row. (3 a triangle)
+std::vector<EdgeUse> edge_uses(const TriangleMesh& mesh);
+
+struct Pieces {
+  std::vector<std::int32_t> of_triangle;  // which piece, counted in the order of the triangles
+  int count = 0;
+};
+/// Parts of a mesh that are connected through edges.
+Pieces pieces(const TriangleMesh& mesh);
+/// One piece with the vertices that it uses.
+TriangleMesh piece_of(const TriangleMesh& mesh, const Pieces& pieces, int which);
+
+/// Turns triangles so that neighbours agree, each piece as its first triangle has it. Returns how many were
+/// turned, or -1 when a piece has but one side (as a Möbius strip) or an edge has more than two triangles.
+std::int64_t orient_alike(TriangleMesh& mesh);
+/// Turns every triangle over.
+void turn_over(TriangleMesh& mesh);
+
+/// How often the mesh winds round a point: 1 inside a closed outward mesh, 0 outside (Jacobson, Kavan and
+/// Sorkine, ACM Trans. Graph. 32 (2013) 33; solid angles after Van Oosterom and Strackee, IEEE Trans. Biomed.
+/// Eng. 30 (1983) 125). Time grows with the number of triangles: for a few points only.
+double winding_number(const TriangleMesh& mesh, const Vec3& point);
+
+}  // namespace packbed
