@@ -34,9 +34,9 @@ class Checker {
     if (!has_triangles() || !indices_valid() || !finite()) return;
     diagonal_ = bounding_box(mesh_).diagonal().norm();
     report_.welded = weld(mesh_);
-    if (!not_degenerate() || !closed() || !manifold() || !oriented() || !outward()) return;
+    // What lies inside what has no meaning before it is known that nothing crosses
+    if (!not_degenerate() || !closed() || !manifold() || !oriented() || !uncrossed() || !outward()) return;
     one_solid();
-    if (!uncrossed()) return;
     walls();
   }
 

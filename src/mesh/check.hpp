@@ -18,11 +18,11 @@ enum class MeshProblem {
   degenerate,      // triangles without area: repaired when dropping them leaves the mesh whole
   open,            // edges with one triangle only
   not_manifold,    // an edge with three or more triangles, or two sheets that meet in one point
-  inconsistent,    // neighbouring triangles that turn opposite ways
-  inverted,        // inside out: repaired when the whole mesh is
+  inconsistent,    // neighbouring triangles that turn opposite ways: repaired where the surface has two sides
   self_crossing,   // triangles that cut each other
-  several_solids,  // more than one piece of material
   no_volume,       // closed, but flat
+  inverted,        // inside out: repaired when the whole mesh is
+  several_solids,  // more than one piece of material
   thin_wall        // a wall thinner than kThinWall of the size
 };
 std::string_view to_string(MeshProblem);

@@ -28,7 +28,7 @@ TEST(MassProperties, PrismHasItsClosedForm) {
   const double R = 1.71e-3, H = 3.46e-3, a = 2 * kPi / n;
   const MassProperties m = mass_properties(revolved({{0, 0}, {R, 0}, {R, H}, {0, H}}, n));
   const double section = n / 2.0 * R * R * std::sin(a);
-  const double polar = n / 12.0 * std::pow(R, 4) * std::sin(a) * (2 + std::cos(a)) / 2 * 1.0;
+  const double polar = n / 12.0 * std::pow(R, 4) * std::sin(a) * (2 + std::cos(a));
   EXPECT_NEAR(m.volume / (section * H), 1, 1e-13);
   EXPECT_NEAR(m.inertia(2, 2) / (polar * H), 1, 1e-13);
   EXPECT_NEAR(m.inertia(0, 0) / (polar * H / 2 + section * H * H * H / 12), 1, 1e-13);
