@@ -6,6 +6,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <type_traits>
 
 namespace packbed {
 
@@ -18,14 +19,17 @@ class Hash {
       std::memcpy(&word, bytes.data() + i, 8);
       mix(word);
     }
-    std::uint64_t tail = bytes.size() << 56;
+    std::uint64_t tail = 0;
     for (; i < bytes.size(); ++i) tail = (tail << 8) ^ static_cast<std::uint64_t>(bytes[i]);
     mix(tail);
+    mix(bytes.size());
   }
   template <class T>
   void add(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    add(std::as_bytes(std::span<const T, 1>(&value, 1)));
+    static_assert(!std::is_convertible_v<T, std::span<const std::byte>>,
+                  "give bytes as std::span<const std::byte>");
+    add(std::span<const std::byte>(std::as_bytes(std::span<const T, 1>(&value, 1))));
   }
   std::uint64_t value() const {
     std::uint64_t h = state_;
