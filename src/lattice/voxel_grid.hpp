@@ -25,6 +25,8 @@ struct VoxelGrid {
       words;  // solid bits (nz, ny, words_per_row); bit i of word w is voxel x = 64 w + i
   std::vector<std::int32_t> labels;  // 0 void, pellet id + 1 solid (nz, ny, nx); empty unless asked for
 
+  std::int64_t doubled = 0;  // voxels found solid again by a further pellet: where pellets overlap
+
   VoxelGrid() = default;
   explicit VoxelGrid(const GridFrame& f)
       : frame(f),

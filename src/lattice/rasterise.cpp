@@ -1,0 +1,311 @@
+#include "lattice/rasterise.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace packbed {
+namespace {
+
+using Wide = __int128;
+/// Meshes up to so many snapped units wide are scan-converted in 64 bits: products of three lengths stay
+/// below 2^62.
+constexpr std::int64_t kNarrow = std::int64_t{1} << 19;
+
+/// Smallest whole number >= num / den for den > 0, exact; inverse is 1 / den, rounded.
+template <class Int>
+Int ceil_div(Int num, Int den, double inverse) {
+  Int q = static_cast<Int>(std::ceil(static_cast<double>(num) * inverse));
+  Int rest = q * den - num;  // wanted in [0, den)
+  while (rest < 0) {
+    ++q;
+    rest += den;
+  }
+  while (rest >= den) {
+    --q;
+    rest -= den;
+  }
+  return q;
+}
+
+std::int64_t ceil_snap(std::int64_t u) {
+  return -((-u) >> 12);
+}
+static_assert(kSnap == 1 << 12);
+
+/// Where an edge of the mesh crosses slice after slice: y as the first whole row at or beyond the crossing.
+template <class Int>
+class EdgeWalk {
+ public:
+  /// From (y0, z0) up to (y1, z1), z0 < z1, starting at slice k.
+  EdgeWalk(std::int64_t y0, std::int64_t z0, std::int64_t y1, std::int64_t z1, std::int64_t k)
+      : den_(static_cast<Int>(z1 - z0) * kSnap),
+        inverse_(1.0 / static_cast<double>(den_)),
+        num_(static_cast<Int>(y0) * (z1 - z0) + static_cast<Int>(k * kSnap - z0) * (y1 - y0)),
+        step_(static_cast<Int>(y1 - y0) * kSnap) {}
+  std::int64_t next() {
+    const Int q = ceil_div(num_, den_, inverse_);
+    num_ += step_;
+    return static_cast<std::int64_t>(q);
+  }
+
+ private:
+  Int den_;
+  double inverse_;
+  Int num_, step_;
+};
+
+std::uint64_t prefix_xor(std::uint64_t w) {
+  w ^= w << 1;
+  w ^= w << 2;
+  w ^= w << 4;
+  w ^= w << 8;
+  w ^= w << 16;
+  w ^= w << 32;
+  return w;
+}
+
+/// Sets bits [from, to) of a row.
+void fill(std::uint64_t* row, int from, int to) {
+  if (to <= from) return;
+  const int first = from / 64, last = (to - 1) / 64;
+  const std::uint64_t head = ~std::uint64_t{0} << (from % 64),
+                      tail = ~std::uint64_t{0} >> (63 - (to - 1) % 64);
+  if (first == last) {
+    row[first] |= head & tail;
+    return;
+  }
+  row[first] |= head;
+  for (int w = first + 1; w < last; ++w) row[w] = ~std::uint64_t{0};
+  row[last] |= tail;
+}
+
+int floor_div(int a, int b) {
+  return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
+
+}  // namespace
+
+// Box of voxels whose centres may lie between low and high [voxels, centres at whole numbers].
+bool Rasteriser::set_box(const Vec3& low, const Vec3& high, int z_begin, int z_end) {
+  BitBlock& b = block_;
+  b.ny = b.nz = b.words = 0;
+  b.bits.clear();
+  constexpr double kFar = 1e9;  // a body so far away has no voxels here
+  if (!(low.cwiseAbs().maxCoeff() < kFar) || !(high.cwiseAbs().maxCoeff() < kFar)) return false;
+  const auto floor_int = [](double v) { return static_cast<int>(std::floor(v)); };
+  const int x0 = floor_int(low.x()), x1 = floor_int(high.x()) + 1;
+  b.y = std::max(0, floor_int(low.y()));
+  b.z = std::max(z_begin, floor_int(low.z()));
+  const int ny = std::min(frame_.size[1], floor_int(high.y()) + 2) - b.y;
+  const int nz = std::min(z_end, floor_int(high.z()) + 2) - b.z;
+  if (ny <= 0 || nz <= 0 || x1 < 0 || x0 >= frame_.size[0]) return false;
+  b.ny = ny;
+  b.nz = nz;
+  b.word = floor_div(x0, 64);
+  b.words = floor_div(x1 + 1, 64) - b.word + 1;
+  b.bits.assign(
+      static_cast<std::size_t>(b.ny) * static_cast<std::size_t>(b.nz) * static_cast<std::size_t>(b.words), 0);
+  return true;
+}
+
+void Rasteriser::sphere(const Vec3& centre, double radius) {
+  const double base = 64.0 * block_.word;
+  for (int k = 0; k < block_.nz; ++k)
+    for (int j = 0; j < block_.ny; ++j) {
+      const double dy = block_.y + j - centre.y(), dz = block_.z + k - centre.z();
+      const double rest = radius * radius - dy * dy - dz * dz;
+      if (rest < 0) continue;
+      const double half = std::sqrt(rest), x = centre.x() - base;
+      fill(block_.row(j, k), static_cast<int>(std::ceil(x - half)), static_cast<int>(std::ceil(x + half)));
+    }
+}
+
+// A row meets the lateral surface where A x^2 - 2 B x + C <= 0 and the caps where |a_x x + s| <= h.
+void Rasteriser::cylinder(const Pose& pose, double radius, double half_height) {
+  const Vec3 a = pose.rotation * Vec3::UnitZ(), c = pose.position;
+  const double across = a.y() * a.y() + a.z() * a.z();  // A
+  const bool along_x = across < 1e-18, flat_x = std::abs(a.x()) < 1e-12;
+  const double inv_across = along_x ? 0 : 1 / across, inv_ax = flat_x ? 0 : 1 / a.x();
+  const double middle = c.x() - 64.0 * block_.word, limit = 64.0 * block_.words;
+  for (int k = 0; k < block_.nz; ++k)
+    for (int j = 0; j < block_.ny; ++j) {
+      const double dy = block_.y + j - c.y(), dz = block_.z + k - c.z();
+      const double s = a.y() * dy + a.z() * dz, b = a.x() * s,
+                   q = dy * dy + dz * dz - s * s - radius * radius;
+      double low = -limit, high = limit;
+      if (along_x) {
+        if (q > 0) continue;
+      } else {
+        const double discriminant = b * b - across * q;
+        if (discriminant < 0) continue;
+        const double root = std::sqrt(discriminant);
+        low = (b - root) * inv_across;
+        high = (b + root) * inv_across;
+      }
+      if (flat_x) {
+        if (std::abs(s) > half_height) continue;
+      } else {
+        const double p = (-half_height - s) * inv_ax, r = (half_height - s) * inv_ax;
+        low = std::max(low, std::min(p, r));
+        high = std::min(high, std::max(p, r));
+      }
+      const double from = std::clamp(middle + low, 0.0, limit), to = std::clamp(middle + high, 0.0, limit);
+      if (from < to)
+        fill(block_.row(j, k), static_cast<int>(std::ceil(from)), static_cast<int>(std::ceil(to)));
+    }
+}
+
+template <class Int>
+void Rasteriser::triangle(const Corner& a, const Corner& b, const Corner& c) {
+  // normal by the cross product of two edges; its x component is twice the area seen along x
+  const Int uy = b.y - a.y, uz = b.z - a.z, ux = b.x - a.x, vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  Int nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  if (nx == 0) return;
+  if (nx < 0) {
+    nx = -nx;
+    ny = -ny;
+    nz = -nz;
+  }
+  const Corner *p0 = &a, *p1 = &b, *p2 = &c;  // by height
+  if (p1->z < p0->z) std::swap(p0, p1);
+  if (p2->z < p1->z) std::swap(p1, p2);
+  if (p1->z < p0->z) std::swap(p0, p1);
+  const std::int64_t k_low = block_.z - corner_base_[2], j_low = block_.y - corner_base_[1];
+  const std::int64_t begin = std::max(ceil_snap(p0->z), k_low);
+  const std::int64_t end = std::min(ceil_snap(p2->z), k_low + block_.nz),
+                     bend = std::clamp(ceil_snap(p1->z), begin, std::max(begin, end));
+  const Int den = nx * kSnap;
+  const double inverse = 1.0 / static_cast<double>(den);
+  const std::int64_t base = corner_base_[0] - 64 * static_cast<std::int64_t>(block_.word);
+
+  const auto rows = [&](const Corner& from, const Corner& to, std::int64_t first, std::int64_t last) {
+    if (first >= last) return;
+    EdgeWalk<Int> long_edge(p0->y, p0->z, p2->y, p2->z, first), short_edge(from.y, from.z, to.y, to.z, first);
+    for (std::int64_t k = first; k < last; ++k) {
+      std::int64_t low = long_edge.next(), high = short_edge.next();
+      if (low > high) std::swap(low, high);
+      low = std::max(low, j_low);
+      high = std::min(high, j_low + block_.ny);
+      if (low >= high) continue;
+      Int num = nx * a.x - ny * static_cast<Int>(low * kSnap - a.y) - nz * static_cast<Int>(k * kSnap - a.z);
+      std::uint64_t* row = block_.row(static_cast<int>(low - j_low), static_cast<int>(k - k_low));
+      for (std::int64_t j = low; j < high; ++j, num -= ny * kSnap, row += block_.words) {
+        const std::int64_t bit = static_cast<std::int64_t>(ceil_div(num, den, inverse)) + base;
+        row[bit >> 6] ^= std::uint64_t{1} << (bit & 63);
+      }
+    }
+  };
+  rows(*p0, *p1, begin, bend);
+  rows(*p1, *p2, bend, end);
+}
+
+void Rasteriser::close_rows() {
+  const std::size_t words = static_cast<std::size_t>(block_.words);
+  for (std::size_t r = 0; r < block_.bits.size(); r += words) {
+    std::uint64_t inside = 0;  // all ones while the row is inside the body
+    for (std::size_t w = r; w < r + words; ++w) {
+      if (block_.bits[w] != 0 || inside != 0) block_.bits[w] = prefix_xor(block_.bits[w]) ^ inside;
+      inside = std::uint64_t{0} - (block_.bits[w] >> 63);
+    }
+    ++rows_;
+    if (inside) ++open_rows_;
+  }
+}
+
+const BitBlock& Rasteriser::mesh(const TriangleMesh& surface, const Pose& pose, double scale, int z_begin,
+                                 int z_end) {
+  const Mat3 rotation = pose.rotation.toRotationMatrix() * (scale / frame_.pitch);
+  const Vec3 shift = (pose.position - frame_.origin) / frame_.pitch - Vec3::Constant(0.5);
+  posed_.resize(surface.vertices.size());
+  Vec3 low = Vec3::Constant(INFINITY), high = -low;
+  for (std::size_t i = 0; i < posed_.size(); ++i) {
+    posed_[i] = rotation * surface.vertices[i] + shift;
+    low = low.cwiseMin(posed_[i]);
+    high = high.cwiseMax(posed_[i]);
+  }
+  if (posed_.empty() || !set_box(low, high, z_begin, z_end)) {
+    block_.nz = block_.ny = 0;
+    return block_;
+  }
+  for (int d = 0; d < 3; ++d)
+    corner_base_[static_cast<std::size_t>(d)] = static_cast<std::int64_t>(std::floor(low[d]));
+  const Vec3 base(static_cast<double>(corner_base_[0]), static_cast<double>(corner_base_[1]),
+                  static_cast<double>(corner_base_[2]));
+  corners_.resize(posed_.size());
+  const auto snap = [](double v) {
+    return static_cast<std::int64_t>(std::nearbyint(v * static_cast<double>(kSnap)));
+  };
+  for (std::size_t i = 0; i < posed_.size(); ++i) {
+    const Vec3 local = posed_[i] - base;
+    corners_[i] = {snap(local.x()), snap(local.y()), snap(local.z())};
+  }
+  const bool narrow =
+      ((high - base).maxCoeff() + 1) * static_cast<double>(kSnap) < static_cast<double>(kNarrow);
+  for (const auto& t : surface.triangles) {
+    const Corner &a = corners_[static_cast<std::size_t>(t[0])], &b = corners_[static_cast<std::size_t>(t[1])],
+                 &c = corners_[static_cast<std::size_t>(t[2])];
+    if (narrow)
+      triangle<std::int64_t>(a, b, c);
+    else
+      triangle<Wide>(a, b, c);
+  }
+  close_rows();
+  return block_;
+}
+
+const BitBlock& Rasteriser::body(const Shape& shape, const Pose& pose, double scale, int z_begin, int z_end) {
+  if (shape.kind == ShapeClass::mesh) return mesh(shape.surface, pose, scale, z_begin, z_end);
+  const Vec3 centre = (pose.position - frame_.origin) / frame_.pitch - Vec3::Constant(0.5);
+  const double size = scale / frame_.pitch, radius = shape.radius * size, half = shape.half_height * size;
+  if (shape.kind == ShapeClass::sphere) {
+    if (set_box(centre.array() - radius, centre.array() + radius, z_begin, z_end)) sphere(centre, radius);
+    return block_;
+  }
+  const Vec3 a = pose.rotation * Vec3::UnitZ();
+  const Vec3 reach = radius * (Vec3::Ones() - a.cwiseAbs2()).cwiseMax(0).cwiseSqrt() + half * a.cwiseAbs();
+  if (set_box(centre - reach, centre + reach, z_begin, z_end))
+    cylinder({centre, pose.rotation}, radius, half);
+  return block_;
+}
+
+namespace {
+
+void label_bits(std::uint64_t bits, std::int32_t* voxel, std::int32_t label) {
+  for (; bits; bits &= bits - 1) {
+    std::int32_t& here = voxel[std::countr_zero(bits)];
+    if (here == 0) here = label;
+  }
+}
+
+}  // namespace
+
+std::int64_t merge(const BitBlock& block, VoxelGrid& grid, std::int32_t label) {
+  std::int64_t doubled = 0;
+  const int words = static_cast<int>(grid.frame.words_per_row()), nx = grid.frame.size[0];
+  const int first = std::max(0, -block.word), last = std::min(block.words, words - block.word);
+  const std::uint64_t tail = nx % 64 == 0 ? ~std::uint64_t{0} : ~(~std::uint64_t{0} << (nx % 64));
+  for (int k = 0; k < block.nz; ++k)
+    for (int j = 0; j < block.ny; ++j) {
+      const std::uint64_t* from = block.row(j, k);
+      std::uint64_t* to = grid.words.data() + grid.row(block.y + j, block.z + k);
+      for (int w = first; w < last; ++w) {
+        const int word = block.word + w;
+        const std::uint64_t bits = word == words - 1 ? from[w] & tail : from[w];
+        if (bits == 0) continue;
+        if (const std::uint64_t both = to[word] & bits) doubled += std::popcount(both);
+        to[word] |= bits;
+        if (!grid.labels.empty()) {
+          const std::size_t row =
+              (static_cast<std::size_t>(block.z + k) * static_cast<std::size_t>(grid.frame.size[1]) +
+               static_cast<std::size_t>(block.y + j)) *
+              static_cast<std::size_t>(nx);
+          label_bits(bits, grid.labels.data() + row + 64 * static_cast<std::size_t>(word), label);
+        }
+      }
+    }
+  return doubled;
+}
+
+}  // namespace packbed
