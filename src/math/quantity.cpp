@@ -136,6 +136,11 @@ std::string plain_unit(std::string_view unit) {
   return plain;
 }
 
+/// Engineers write millimetres and seconds, not centimetres, inches and hours.
+bool usual(const Unit& u) {
+  return u.factor == 1 && u.power != -2;
+}
+
 std::string allowed_text(Dimension d) {
   return fmt::format("a number and a unit of {}: {}", to_string(d), accepted_units(d));
 }
@@ -224,8 +229,7 @@ std::string format_quantity(double si, Dimension d, int digits) {
   const Unit* best = &units(d)[0];
   double best_badness = 1e300;
   for (const Unit& u : units(d)) {
-    if (u.factor != 1 && d != Dimension::angle)
-      continue;  // seconds rather than minutes, metres rather than inches
+    if (!usual(u) && d != Dimension::angle) continue;
     const double number = std::abs(si) / (u.factor * std::pow(10.0, u.power));
     const double badness = si == 0                       ? 0
                            : number < 1                  ? 3 - std::log10(number)
@@ -245,7 +249,8 @@ std::string format_quantity_exactly(double si, Dimension d) {
   int best_power = 0;
   for (const Unit& u : units(d)) {
     const std::string number = exact_number(si, u, d);
-    if (number.empty()) continue;
+    if (number.empty() || u.power == -2) continue;
+    if (si == 0) return fmt::format("{} {}", number, u.name);
     // the shortest number, best from 1 to 1000; of two alike the later (smaller) unit: 44.5 mm, not 4.45 cm.
     // Inches, minutes and degrees only where they save much.
     const double size = std::abs(std::strtod(number.c_str(), nullptr));

@@ -81,11 +81,11 @@ TEST(Quantity, AnythingButOneDecimalNumberAndOneUnitIsRefused) {
 
 TEST(Quantity, FormatPicksTheUnitThatReadsWell) {
   EXPECT_EQ(format_quantity(0.00342, Dimension::length), "3.42 mm");
-  EXPECT_EQ(format_quantity(0.0445, Dimension::length), "4.45 cm");
+  EXPECT_EQ(format_quantity(0.0445, Dimension::length), "44.5 mm");
   EXPECT_EQ(format_quantity(0, Dimension::length), "0 m");
   EXPECT_EQ(format_quantity(5e-6, Dimension::time), "5 us");
   EXPECT_EQ(format_quantity(90, Dimension::time), "90 s");
-  EXPECT_EQ(format_quantity(-0.5, Dimension::speed), "-50 cm/s");
+  EXPECT_EQ(format_quantity(-0.5, Dimension::speed), "-500 mm/s");
   EXPECT_EQ(format_quantity(12345678, Dimension::length), "1.235e+07 m");
 }
 
@@ -110,6 +110,8 @@ TEST(Quantity, ExactFormatIsAsShortAsPeopleWrite) {
   EXPECT_EQ(format_quantity_exactly(0.2 * kPi / 180, Dimension::angle), "0.2 deg");
   EXPECT_EQ(format_quantity_exactly(0.0445, Dimension::length), "44.5 mm");
   EXPECT_EQ(format_quantity_exactly(0.135, Dimension::length), "135 mm");
+  EXPECT_EQ(format_quantity_exactly(0.15, Dimension::length), "150 mm");
+  EXPECT_EQ(format_quantity_exactly(0, Dimension::time), "0 s");
   EXPECT_EQ(format_quantity_exactly(0.0254, Dimension::length), "25.4 mm");
   EXPECT_EQ(format_quantity_exactly(1e4, Dimension::stiffness), "10 N/mm");
 }

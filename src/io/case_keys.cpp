@@ -1,0 +1,367 @@
+#include "io/case_keys.hpp"
+
+namespace packbed {
+namespace {
+
+using D = Dimension;
+
+constexpr Range at_least(double low, std::string_view why = {}) {
+  return {.low = low, .why = why};
+}
+constexpr Range between(double low, double high, std::string_view why = {}) {
+  return {.low = low, .high = high, .why = why};
+}
+constexpr Range above_zero(std::string_view why = {}) {
+  return {.low = 0, .without_low = true, .why = why};
+}
+constexpr Range above_zero_to(double high, std::string_view why = {}) {
+  return {.low = 0, .high = high, .without_low = true, .why = why};
+}
+
+constexpr Range kSize = above_zero_to(100, "a body has a size");
+/// exp(-2): see restitution_from_damping
+constexpr double kRestitutionAtCritical = 0.1353352832366127;
+
+void general_keys(Fields& f, CaseRecord& r) {
+  f.text({.name = "folder",
+          .meaning = "folder that relative file names count from; default: the one of the case file"},
+         r.folder);
+  f.text({.name = "name", .meaning = "of the case; default: the file's name"}, r.name);
+  f.choice({.name = "method", .meaning = "how to pack: mesh = rigid bodies with penalty contact"}, r.method,
+           {"mesh"});
+  f.choice(
+      {.name = "kernel", .meaning = "contact kernel; auto = the fastest exact one that the shapes allow"},
+      r.kernel, {"auto", "sphere", "cylinder", "field"});
+  f.seed({.name = "seed", .meaning = "of all random numbers; --seed overrules it"}, r.seed);
+  f.vector({.name = "gravity",
+            .meaning = "down (one quantity) or any way (three)",
+            .dimension = D::acceleration,
+            .range = between(-1e4, 1e4),
+            .downwards = true},
+           r.gravity);
+  f.real({.name = "overlap_limit",
+          .meaning = "largest overlap at rest that the audit lets pass, fraction of the smallest thickness",
+          .range = above_zero_to(1)},
+         r.overlap_limit);
+}
+
+void pellet_keys(Fields& f, PelletRecord& r) {
+  f.text({.name = "name", .meaning = "of the kind of pellet; default: file or shape"}, r.name);
+  f.path({.name = "file", .meaning = "CAD file: STEP, MSH, STL, OBJ or PLY"}, r.file);
+  f.when(!r.file.empty(), "file = ...", [&] {
+    f.choice({.name = "unit", .meaning = "of the lengths in an STL, OBJ, PLY or MSH file (STEP has its own)"},
+             r.unit, {"m", "cm", "mm", "um", "in"});
+    f.flag({.name = "recognise", .meaning = "take a mesh that is a sphere or cylinder for the exact body"},
+           r.recognise);
+  });
+  f.when(r.file.empty(), "no file", [&] {
+    f.choice({.name = "shape", .meaning = "instead of a file", .required = true}, r.shape,
+             {"sphere", "cylinder"});
+    f.real({.name = "diameter",
+            .meaning = "of the pellet",
+            .dimension = D::length,
+            .range = kSize,
+            .required = true},
+           r.diameter);
+    f.when(r.shape == "cylinder", "shape = \"cylinder\"", [&] {
+      f.real({.name = "height",
+              .meaning = "of the cylinder",
+              .dimension = D::length,
+              .range = kSize,
+              .required = true},
+             r.height);
+    });
+  });
+  f.real({.name = "density",
+          .meaning = "of the pellet's material, its volume times this is its mass",
+          .dimension = D::density,
+          .range = above_zero_to(1e6, "a pellet without mass cannot be moved by forces"),
+          .required = true},
+         r.density);
+  f.real({.name = "share",
+          .meaning = "of the pellets fed, by number, relative to the other kinds",
+          .range = above_zero_to(1e9, "leave out a kind that is not fed")},
+         r.share);
+}
+
+void container_keys(Fields& f, ContainerRecord& r) {
+  f.text({.name = "name", .meaning = "of the container; default: file or shape"}, r.name);
+  f.path({.name = "file", .meaning = "CAD file of the wall's material: STEP, MSH, STL, OBJ or PLY"}, r.file);
+  f.when(!r.file.empty(), "file = ...", [&] {
+    f.choice({.name = "unit", .meaning = "of the lengths in an STL, OBJ, PLY or MSH file (STEP has its own)"},
+             r.unit, {"m", "cm", "mm", "um", "in"});
+    f.flag({.name = "recognise",
+            .meaning = "take a mesh that is a round tube on a flat floor for the exact tube"},
+           r.recognise);
+  });
+  f.when(r.file.empty(), "no file", [&] {
+    f.choice(
+        {.name = "shape",
+         .meaning =
+             "instead of a file: tube = round, upright, on a flat floor, open above; plane = a floor without "
+             "end; none = free space",
+         .required = true},
+        r.shape, {"tube", "plane", "none"});
+    f.when(r.shape == "tube", "shape = \"tube\"", [&] {
+      f.real({.name = "inner_diameter",
+              .meaning = "of the tube",
+              .dimension = D::length,
+              .range = kSize,
+              .required = true},
+             r.inner_diameter);
+      f.real({.name = "height",
+              .meaning = "of the tube, floor to rim",
+              .dimension = D::length,
+              .range = kSize,
+              .required = true},
+             r.height);
+    });
+  });
+}
+
+void contact_keys(Fields& f, ContactRecord& r) {
+  f.real({.name = "friction",
+          .meaning = "Coulomb coefficient",
+          .range = between(0, 10, "friction never pulls; 0 is frictionless")},
+         r.friction);
+  if (const auto given = f.one_of({"damping", "restitution"}))
+    (*given == 0 ? r.restitution : r.damping).reset();
+  f.real({.name = "damping",
+          .meaning = "fraction of critical damping of an impact; instead of restitution",
+          .range = between(0, 1, "more than critical damping makes an impact a creep")},
+         r.damping);
+  f.real({.name = "restitution",
+          .meaning = "speed after over speed before a head-on impact; instead of damping",
+          .range =
+              between(kRestitutionAtCritical, 1, "exp(-2) = 0.1353 is the restitution of critical damping")},
+         r.restitution);
+  if (const auto given = f.one_of({"stiffness", "allowed_overlap"}))
+    (*given == 0 ? r.allowed_overlap : r.stiffness).reset();
+  f.real({.name = "stiffness",
+          .meaning = "k of the contact energy k delta^2 / 2; instead of allowed_overlap",
+          .dimension = D::stiffness,
+          .range = above_zero_to(1e12)},
+         r.stiffness);
+  f.real(
+      {.name = "allowed_overlap",
+       .meaning = "at the hardest impact, fraction of the smallest thickness: the stiffness follows from it",
+       .range = {.low = 1e-6, .high = 0.2, .why = "more would let pellets pass through each other"}},
+      r.allowed_overlap);
+  f.flag({.name = "torsion", .meaning = "a spring against spinning on a flat touch"}, r.torsion);
+}
+
+void placed_keys(Fields& f, PlacedRecord& r) {
+  int kind = static_cast<int>(r.pellet.kind);
+  f.whole({.name = "kind", .meaning = "which [[pellet]], from 0", .range = between(0, 1000)}, kind);
+  r.pellet.kind = static_cast<std::uint32_t>(kind);
+  f.vector({.name = "position",
+            .meaning = "of the centre of mass",
+            .dimension = D::length,
+            .range = between(-100, 100),
+            .required = true},
+           r.pellet.pose.position);
+  f.real({.name = "turn", .meaning = "angle about turn_about; instead of rotation", .dimension = D::angle},
+         r.turn);
+  f.when(!r.turn, "no turn", [&] {
+    f.rotation({.name = "rotation", .meaning = "from the shape's frame, quaternion [w, x, y, z]"},
+               r.pellet.pose.rotation);
+  });
+  f.when(r.turn.has_value(), "turn = ...", [&] {
+    f.vector({.name = "turn_about", .meaning = "direction of the axis that turn counts about"}, r.turn_about);
+  });
+  f.vector({.name = "velocity",
+            .meaning = "of the centre of mass",
+            .dimension = D::speed,
+            .range = between(-1e4, 1e4)},
+           r.pellet.velocity);
+  f.vector({.name = "spin",
+            .meaning = "angular velocity, world axes",
+            .dimension = D::angular_velocity,
+            .range = between(-1e6, 1e6)},
+           r.pellet.spin);
+  f.flag({.name = "fixed", .meaning = "held where it is"}, r.pellet.fixed);
+}
+
+void poured_keys(Fields& f, Feed& r) {
+  f.whole({.name = "count", .meaning = "stop feeding at so many pellets", .range = between(1, 1e7)}, r.count);
+  f.real({.name = "height",
+          .meaning = "stop feeding when the bed's surface is so high",
+          .dimension = D::length,
+          .range = kSize},
+         r.height);
+  f.real({.name = "mass",
+          .meaning = "stop feeding at this mass",
+          .dimension = D::mass,
+          .range = above_zero_to(1e6)},
+         r.mass);
+  f.whole({.name = "per_layer",
+           .meaning = "pellets that enter together, in one layer or one handful",
+           .range = between(1, 1e6, "something has to enter")},
+          r.per_layer);
+  f.real({.name = "interval",
+          .meaning = "between two layers or handfuls",
+          .dimension = D::time,
+          .range = above_zero_to(3600, "two layers cannot enter at the same instant")},
+         r.interval);
+  f.real({.name = "drop_height",
+          .meaning = "of the centres of the lowest pellets of a layer at entry",
+          .dimension = D::length,
+          .range = kSize,
+          .required = true},
+         r.drop_height);
+  f.flag({.name = "above_bed", .meaning = "drop_height counts from the bed's surface instead of the floor"},
+         r.above_bed);
+  f.real({.name = "radius",
+          .meaning = "of the circle that centres enter in",
+          .dimension = D::length,
+          .range = kSize,
+          .automatic = "as wide as the container lets every rotation fit"},
+         r.radius);
+  f.real({.name = "speed",
+          .meaning = "at entry, in a random direction; 0 = at rest",
+          .dimension = D::speed,
+          .range = between(0, 1e3)},
+         r.speed);
+}
+
+void feed_keys(Fields& f, CaseRecord& r) {
+  f.choice(
+      {.name = "kind",
+       .meaning =
+           "layers = flat layers over the whole section; pour = handfuls from random points in a circle; "
+           "placed = where the case or a CSV file says"},
+      r.feed_kind, {"layers", "pour", "placed"});
+  const bool placed = r.feed_kind == "placed";
+  f.when(!placed, "kind = \"layers\" or \"pour\"", [&] { poured_keys(f, r.feed); });
+  f.when(placed, "kind = \"placed\"", [&] {
+    f.path({.name = "csv", .meaning = "table of placed pellets, a line each; instead of [[feed.placed]]"},
+           r.feed_csv);
+    f.list("placed", "One pellet, put where it is wanted.", r.placed.size(), [&](std::size_t i) {
+      if (i >= r.placed.size()) r.placed.resize(i + 1);
+      placed_keys(f, r.placed[i]);
+    });
+  });
+}
+
+void stepping_keys(Fields& f, Stepping& r) {
+  f.real({.name = "step",
+          .meaning = "of time",
+          .dimension = D::time,
+          .range = above_zero_to(1, "time has to go on"),
+          .automatic = "contact time of the stiffest contact / steps_per_contact"},
+         r.step);
+  f.real({.name = "steps_per_contact",
+          .meaning = "when step is auto",
+          .range = between(5, 1e4, "fewer cannot follow an impact")},
+         r.steps_per_contact);
+  f.real({.name = "skin",
+          .meaning = "of the neighbour list",
+          .dimension = D::length,
+          .range = kSize,
+          .automatic = "from the pellet's size"},
+         r.skin);
+  f.flag({.name = "sleep", .meaning = "let settled pellets stand still until something moves them"}, r.sleep);
+  f.real({.name = "sleep_displacement",
+          .meaning = "drift below which a pellet may sleep, fraction of its size",
+          .range = above_zero_to(0.1)},
+         r.sleep_displacement);
+  f.real({.name = "rest_speed",
+          .meaning = "mean kinetic speed under which a bed may be at rest",
+          .dimension = D::speed,
+          .range = above_zero_to(10)},
+         r.rest_speed);
+  f.real({.name = "rest_force",
+          .meaning = "mean unbalanced force under which a bed may be at rest, fraction of the weight",
+          .range = above_zero_to(10)},
+         r.rest_force);
+  f.real({.name = "rest_drift",
+          .meaning = "largest displacement over rest_window of a bed at rest, fraction of the pellet's size",
+          .range = above_zero_to(1)},
+         r.rest_drift);
+  f.real({.name = "rest_window",
+          .meaning = "time that rest_drift is watched over",
+          .dimension = D::time,
+          .range = above_zero_to(60)},
+         r.rest_window);
+  f.real({.name = "max_time",
+          .meaning = "simulated time after which the run gives up waiting for rest",
+          .dimension = D::time,
+          .range = above_zero_to(1e6)},
+         r.max_time);
+  f.real({.name = "duration",
+          .meaning = "run exactly so long, whatever happens",
+          .dimension = D::time,
+          .range = above_zero_to(1e6),
+          .automatic = "until the bed is at rest"},
+         r.duration);
+}
+
+void analysis_keys(Fields& f, AnalysisWish& r) {
+  f.real({.name = "voxel", .meaning = "pitch of the grid", .dimension = D::length, .range = above_zero_to(1)},
+         r.voxel);
+  f.real({.name = "diameter",
+          .meaning = "dp of all scaled axes",
+          .dimension = D::length,
+          .range = kSize,
+          .automatic = "diameter of the sphere of the pellet's volume"},
+         r.diameter);
+  f.real({.name = "from_diameters",
+          .meaning = "lower end of the middle section, in dp above the floor",
+          .range = between(0, 1e6)},
+         r.from_diameters);
+  f.real({.name = "to_diameters",
+          .meaning = "upper end of the middle section, in dp above the floor",
+          .range = above_zero_to(1e6)},
+         r.to_diameters);
+  f.flag({.name = "voxels", .meaning = "profiles from a voxel grid"}, r.voxels);
+  f.flag({.name = "orientation", .meaning = "orientation of the pellets' axes"}, r.orientation);
+  f.flag({.name = "exact", .meaning = "voxel-free profiles beside"}, r.exact);
+}
+
+void output_keys(Fields& f, OutputWish& r) {
+  f.real({.name = "trajectory_interval",
+          .meaning = "simulated time between two frames of the trajectory",
+          .dimension = D::time,
+          .range = above_zero_to(1e6),
+          .automatic = "no trajectory"},
+         r.trajectory_interval);
+  f.real({.name = "checkpoint_interval",
+          .meaning = "wall-clock time between two checkpoints; 0 = none",
+          .dimension = D::time,
+          .range = between(0, 1e6)},
+         r.checkpoint_interval);
+  f.flag({.name = "voxels", .meaning = "write the grid, voxels.h5"}, r.voxels);
+  f.flag({.name = "vtk", .meaning = "write files for ParaView"}, r.vtk);
+  f.flag({.name = "report", .meaning = "write report.html"}, r.report);
+}
+
+/// The law of the wall starts from the one of the pellets.
+void both_contacts(Fields& f, CaseRecord& r) {
+  f.section("contact", "Between two pellets, and with the container unless [contact.wall] says otherwise.",
+            [&] {
+              contact_keys(f, r.pellet_contact);
+              if (f.reading()) r.wall_contact = r.pellet_contact;
+              f.section("wall", "Between a pellet and the container. Default: as [contact].",
+                        [&] { contact_keys(f, r.wall_contact); });
+            });
+}
+
+}  // namespace
+
+void visit_case(Fields& f, CaseRecord& r) {
+  general_keys(f, r);
+  f.list("pellet", "One kind of pellet, or several as [[pellet]].", r.pellets.size(), [&](std::size_t i) {
+    if (i >= r.pellets.size()) r.pellets.resize(i + 1);
+    pellet_keys(f, r.pellets[i]);
+  });
+  f.section("container", "What holds the bed: z up, floor at z = 0, axis through the origin.",
+            [&] { container_keys(f, r.container); });
+  both_contacts(f, r);
+  f.section("feed", "How pellets enter.", [&] { feed_keys(f, r); });
+  f.section("stepping", "How the packer moves bodies, and when it calls the bed at rest.",
+            [&] { stepping_keys(f, r.stepping); });
+  f.section("analysis", "What is measured of the bed.", [&] { analysis_keys(f, r.analysis); });
+  f.section("output", "What is written.", [&] { output_keys(f, r.output); });
+}
+
+}  // namespace packbed

@@ -1,0 +1,59 @@
+#pragma once
+// What a case file says, before any CAD file is opened: one record, and one list of all its keys.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bed/scene.hpp"
+#include "io/case_fields.hpp"
+
+namespace packbed {
+
+struct PelletRecord {
+  std::string name, file, unit, shape;
+  bool recognise = true;
+  double diameter = 0, height = 0;  // [m]
+  double density = 0;               // [kg/m3]
+  double share = 1;
+};
+
+struct ContainerRecord {
+  std::string name, file, unit, shape;
+  bool recognise = true;
+  double inner_diameter = 0, height = 0;  // [m]
+};
+
+struct ContactRecord {
+  double friction = 0.6;
+  std::optional<double> damping = 0.4, restitution = {};         // one of them
+  std::optional<double> stiffness = {}, allowed_overlap = 0.03;  // one of them
+  bool torsion = true;
+};
+
+struct PlacedRecord {
+  PlacedPellet pellet;
+  std::optional<double> turn;  // instead of a quaternion: about turn_about [rad]
+  Vec3 turn_about = Vec3::UnitZ();
+};
+
+struct CaseRecord {
+  std::string folder, name, method = "mesh", kernel = "auto";
+  std::uint64_t seed = 1;
+  Vec3 gravity{0, 0, -9.80665};  // [m/s2]
+  double overlap_limit = 0.005;
+  std::vector<PelletRecord> pellets = std::vector<PelletRecord>(1);
+  ContainerRecord container;
+  ContactRecord pellet_contact, wall_contact;
+  Feed feed;
+  std::string feed_kind = "layers", feed_csv;
+  std::vector<PlacedRecord> placed;
+  Stepping stepping;
+  AnalysisWish analysis;
+  OutputWish output;
+};
+
+/// Every key of a case, in the order in which a case is written.
+void visit_case(Fields& fields, CaseRecord& record);
+
+}  // namespace packbed

@@ -1,0 +1,269 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/damping.hpp"
+#include "io/case.hpp"
+#include "math/quantity.hpp"
+
+namespace packbed {
+namespace {
+
+using D = Dimension;
+
+// Costs that the estimates rest on; measured on one core of a 2020s server, docs/case.md says how. They
+// decide nothing.
+constexpr double kContactCost[] = {0.1e-6, 0.35e-6,
+                                   4e-6};   // [s] a touching contact and step: sphere, cylinder, field
+constexpr double kBodyCost = 0.2e-6;        // [s] a moving pellet and step
+constexpr double kContactsPerPellet = 2.3;  // touching, mean over a bed while it is poured
+constexpr double kAwake = 0.5;              // share of the pellets that move, with sleep
+constexpr double kOffCentre =
+    4.4;                           // the effective mass of a rim hit is so much smaller than of a central one
+constexpr double kSettling = 0.3;  // [s] from the last landing to rest
+constexpr double kPackingDensity = 0.6;
+constexpr double kBaseMemory = 40e6, kPelletMemory = 4e3;  // [bytes]
+
+std::string q(double si, D d) {
+  return format_quantity(si, d);
+}
+
+bool uses_field(const Scene& s, const Shape& shape) {
+  return s.kernel == "field" || shape.kind == ShapeClass::mesh;
+}
+std::string kernel_of(const Scene& s, const Shape& shape) {
+  return uses_field(s, shape) ? "field" : std::string(to_string(shape.kind));
+}
+bool any_field(const Scene& s) {
+  return std::any_of(s.pellets.begin(), s.pellets.end(),
+                     [&](const PelletKind& k) { return uses_field(s, *k.shape); });
+}
+bool only_spheres(const Scene& s) {
+  return std::all_of(s.pellets.begin(), s.pellets.end(),
+                     [](const PelletKind& k) { return k.shape->kind == ShapeClass::sphere; });
+}
+bool has_container(const Scene& s) {
+  return s.container.kind != ContainerKind::none;
+}
+bool round_container(const Scene& s) {
+  return s.container.radius > 0 &&
+         (s.container.kind == ContainerKind::tube || s.container.kind == ContainerKind::mesh);
+}
+
+double mean_volume(const Scene& s) {
+  double v = 0;
+  for (const PelletKind& k : s.pellets) v += k.share * k.shape->volume;
+  return v;
+}
+double mean_mass(const Scene& s) {
+  double m = 0;
+  for (const PelletKind& k : s.pellets) m += k.share * k.density * k.shape->volume;
+  return m;
+}
+double fed_radius(const Scene& s) {
+  return round_container(s) ? s.container.radius : s.feed.radius;
+}
+
+/// How many pellets will be there at the end.
+double expected_pellets(const Scene& s) {
+  if (s.feed.kind == FeedKind::placed) return static_cast<double>(s.feed.placed.size());
+  double n = 1e300;
+  if (s.feed.count) n = *s.feed.count;
+  if (s.feed.mass) n = std::min(n, std::ceil(*s.feed.mass / mean_mass(s)));
+  if (s.feed.height)
+    n = std::min(n, kPackingDensity * kPi * std::pow(fed_radius(s), 2) * *s.feed.height / mean_volume(s));
+  return std::max(1.0, std::floor(n));
+}
+
+double expected_height(const Scene& s) {
+  if (s.feed.kind == FeedKind::placed) {
+    double top = 0;
+    for (const PlacedPellet& p : s.feed.placed)
+      top = std::max(top, p.pose.position.z() + s.pellets[p.kind].shape->bounding_radius);
+    return top;
+  }
+  return expected_pellets(s) * mean_volume(s) / (kPackingDensity * kPi * std::pow(fed_radius(s), 2));
+}
+
+struct Expected {
+  double speed = 0;             // of the hardest impact [m/s]
+  double stiffness = 0;         // [N/m]
+  double step = 0;              // [s]
+  double simulated = 0;         // [s]
+  double steps = 0, cpu = 0;    // [-], [s]
+  double grid = 0, memory = 0;  // [bytes]
+};
+
+double impact_speed(const Scene& s) {
+  const double g = s.gravity.norm();
+  double speed = 0;
+  if (s.feed.kind != FeedKind::placed)
+    return std::sqrt(2 * g * s.feed.drop_height + s.feed.speed * s.feed.speed);
+  for (const PlacedPellet& p : s.feed.placed)
+    speed = std::max(speed, std::sqrt(p.velocity.squaredNorm() + 2 * g * std::max(0.0, p.pose.position.z())));
+  return speed;
+}
+
+Expected expect(const Scene& s) {
+  Expected e;
+  e.speed = impact_speed(s);
+  double thickness = 1e300, mass = 1e300, heaviest = 0;
+  for (const PelletKind& k : s.pellets) {
+    thickness = std::min(thickness, k.shape->smallest_thickness);
+    mass = std::min(mass, k.density * k.shape->volume);
+    heaviest = std::max(heaviest, k.density * k.shape->volume);
+  }
+  const ContactLaw& law = s.pellet_contact;
+  const double overlap = law.allowed_overlap * thickness, zeta = law.damping_ratio;
+  const double root = overlap > 0 ? e.speed * peak_overlap_factor(zeta) / overlap : 0;  // w0
+  e.stiffness = law.stiffness > 0 ? law.stiffness : heaviest / 2 * root * root;
+  const double fastest = std::sqrt(e.stiffness * 2 * kOffCentre / mass);
+  e.step = s.stepping.step > 0 ? s.stepping.step
+           : fastest > 0       ? contact_time_factor(zeta) / fastest / s.stepping.steps_per_contact
+                               : 0;
+  const double n = expected_pellets(s), g = std::max(s.gravity.norm(), 1e-3);
+  const bool placed = s.feed.kind == FeedKind::placed;
+  const double feeding = placed ? 0 : std::ceil(n / s.feed.per_layer - 1) * s.feed.interval;
+  const double fall = std::sqrt(2 * (placed ? expected_height(s) : s.feed.drop_height) / g);
+  e.simulated = s.stepping.duration > 0 ? s.stepping.duration
+                                        : std::min(s.stepping.max_time, feeding + fall + kSettling);
+  e.steps = e.step > 0 ? e.simulated / e.step : 0;
+  const double share = placed ? 1 : (feeding / 2 + fall + kSettling) / std::max(1e-9, e.simulated);
+  const double present = n * std::min(1.0, share) * (s.stepping.sleep && n > 200 ? kAwake : 1);
+  const double contact = kContactCost[any_field(s) ? 2 : only_spheres(s) ? 0 : 1];
+  e.cpu = e.steps * present * (kBodyCost + kContactsPerPellet * contact);
+  if (s.analysis.voxels && round_container(s))
+    e.grid =
+        std::pow(2 * s.container.radius / s.analysis.voxel, 2) * expected_height(s) / s.analysis.voxel / 8;
+  e.memory = kBaseMemory + n * kPelletMemory + e.grid * (s.output.voxels ? 33 : 2);
+  return e;
+}
+
+std::string size_text(const Shape& shape) {
+  if (shape.kind == ShapeClass::sphere) return q(2 * shape.radius, D::length) + " across";
+  if (shape.kind == ShapeClass::cylinder)
+    return fmt::format("{} x {} (diameter x height)", q(2 * shape.radius, D::length),
+                       q(2 * shape.half_height, D::length));
+  return fmt::format("{} triangles, {} across", shape.surface.triangles.size(),
+                     q(2 * shape.bounding_radius, D::length));
+}
+
+std::string pellets_text(const Scene& s) {
+  std::string out = "pellets\n";
+  for (const PelletKind& k : s.pellets)
+    out += fmt::format("  {}: {}, {}; volume {}, mass {}; kernel {}{}\n", k.shape->name,
+                       to_string(k.shape->kind), size_text(*k.shape), q(k.shape->volume, D::volume),
+                       q(k.density * k.shape->volume, D::mass), kernel_of(s, *k.shape),
+                       s.pellets.size() > 1 ? fmt::format("; share {:.3g}", k.share) : "");
+  return out;
+}
+
+std::string container_text(const Scene& s) {
+  const Container& c = s.container;
+  std::string size;
+  if (c.kind == ContainerKind::tube)
+    size = fmt::format(", inner diameter {}, height {}; exact wall and floor", q(2 * c.radius, D::length),
+                       q(c.height, D::length));
+  if (c.kind == ContainerKind::mesh)
+    size = fmt::format(", {} triangles, height {}; walls through its mesh", c.surface.triangles.size(),
+                       q(c.height, D::length));
+  return fmt::format("container\n  {}: {}{}\n", c.name, to_string(c.kind), size);
+}
+
+std::string feed_text(const Scene& s) {
+  const Feed& f = s.feed;
+  if (f.kind == FeedKind::placed) return fmt::format("  {} placed pellets, no feeding\n", f.placed.size());
+  std::vector<std::string> ends;
+  if (f.count) ends.push_back(fmt::format("{} pellets", *f.count));
+  if (f.height) ends.push_back("a bed of " + q(*f.height, D::length));
+  if (f.mass) ends.push_back(q(*f.mass, D::mass) + " of pellets");
+  const double layers = std::ceil(expected_pellets(s) / f.per_layer);
+  return fmt::format("  feed: {} of {} every {} from {} above the {}, until {}; about {:.0f} {}, {}\n",
+                     f.kind == FeedKind::pour ? "handfuls" : "layers", f.per_layer, q(f.interval, D::time),
+                     q(f.drop_height, D::length), f.above_bed ? "bed" : "floor", fmt::join(ends, " or "),
+                     layers, f.kind == FeedKind::pour ? "handfuls" : "layers",
+                     q((layers - 1) * f.interval, D::time));
+}
+
+std::string made_text(const Scene& s, const Expected& e) {
+  std::string out = "made\n" + feed_text(s);
+  for (const PelletKind& k : s.pellets)
+    if (uses_field(s, *k.shape))
+      out += fmt::format("  distance field and surface points of {}\n", k.shape->name);
+  if (s.container.kind == ContainerKind::mesh)
+    out += fmt::format("  search structure over the triangles of {}\n", s.container.name);
+  if (s.analysis.voxels)
+    out += fmt::format("  voxel grid of {} pitch{}\n", q(s.analysis.voxel, D::length),
+                       e.grid > 0 ? fmt::format(", about {:.3g} million voxels", e.grid * 8 / 1e6) : "");
+  if (s.analysis.exact) out += "  voxel-free profiles\n";
+  if (s.output.trajectory_interval > 0) {
+    const double frames = e.simulated / s.output.trajectory_interval + 1;
+    out += fmt::format("  trajectory: about {:.0f} frames\n", frames);
+  }
+  if (s.output.report) out += "  report.html\n";
+  if (s.output.vtk) out += "  files for ParaView\n";
+  if (s.output.voxels) out += "  voxels.h5\n";
+  return out;
+}
+
+std::string skipped_text(const Scene& s) {
+  std::vector<std::string> lines;
+  if (!any_field(s)) lines.emplace_back("distance fields: every shape has an exact kernel");
+  if (!has_container(s)) lines.emplace_back("container contacts: there is no container");
+  if (s.pellet_contact.friction == 0 && s.wall_contact.friction == 0)
+    lines.emplace_back("friction history and torsion: friction is 0");
+  else if (!s.pellet_contact.torsion && !s.wall_contact.torsion)
+    lines.emplace_back("torsion springs: contact.torsion is false");
+  if (only_spheres(s) && s.pellet_contact.friction == 0 && s.wall_contact.friction == 0)
+    lines.emplace_back("rotations: nothing turns a frictionless sphere");
+  if (!s.stepping.sleep) lines.emplace_back("sleep: stepping.sleep is false");
+  if (s.feed.kind == FeedKind::placed)
+    lines.emplace_back("feeding and its overlap tests: all pellets are placed");
+  lines.emplace_back("tetrahedra: no kernel of this scene asks for them");
+  if (!s.analysis.voxels) lines.emplace_back("voxel grid: analysis.voxels is false");
+  if (!s.analysis.orientation)
+    lines.emplace_back("orientations: analysis.orientation is false");
+  else if (only_spheres(s))
+    lines.emplace_back("orientations: spheres have none");
+  if (!s.analysis.exact) lines.emplace_back("voxel-free profiles: analysis.exact is false");
+  if (s.analysis.voxels && !round_container(s))
+    lines.emplace_back("radial profile: the container has no radius");
+  if (!(s.output.trajectory_interval > 0))
+    lines.emplace_back("trajectory: output.trajectory_interval is auto (none)");
+  if (!(s.output.checkpoint_interval > 0)) lines.emplace_back("checkpoints: output.checkpoint_interval is 0");
+  std::string out = "not needed, skipped\n";
+  for (const std::string& line : lines) out += "  " + line + "\n";
+  return out;
+}
+
+std::string expected_text(const Scene& s, const Expected& e) {
+  return fmt::format(
+      "expected (estimates)\n"
+      "  pellets {:.0f}, bed height {}\n"
+      "  hardest impact {}, stiffness {}{}\n"
+      "  step {}{}, simulated {}, {:.3g} steps\n"
+      "  time about {} of one core, memory about {:.0f} MB\n",
+      expected_pellets(s),
+      fed_radius(s) > 0 || s.feed.kind == FeedKind::placed ? q(expected_height(s), D::length) : "unknown",
+      q(e.speed, D::speed), q(e.stiffness, D::stiffness),
+      s.pellet_contact.stiffness > 0
+          ? " (given)"
+          : fmt::format(" (from an allowed overlap of {:.3g} %)", 100 * s.pellet_contact.allowed_overlap),
+      q(e.step, D::time),
+      s.stepping.step > 0 ? " (given)"
+                          : fmt::format(" (stiffest contact / {:.3g})", s.stepping.steps_per_contact),
+      format_quantity(e.simulated, D::time, 3), e.steps, format_quantity(e.cpu, D::time, 2), e.memory / 1e6);
+}
+
+}  // namespace
+
+std::string plan(const Scene& scene) {
+  const Expected e = expect(scene);
+  return fmt::format("plan of \"{}\": method {}, kernel {}, seed {}\n", scene.name, scene.method,
+                     scene.kernel, scene.seed) +
+         pellets_text(scene) + container_text(scene) + made_text(scene, e) + skipped_text(scene) +
+         expected_text(scene, e);
+}
+
+}  // namespace packbed
