@@ -41,11 +41,22 @@ using ShapePtr = std::shared_ptr<const Shape>;
 /// Exact primitives; the surface has `facets` facets round and conserves the volume.
 ShapePtr make_sphere(const std::string& name, double radius, int facets = 24);
 ShapePtr make_cylinder(const std::string& name, double diameter, double height, int facets = 48);
-/// How closely a mesh must follow a primitive to be taken for it: fraction of its size.
+/// How closely the vertices of a mesh must follow a primitive to be taken for it: fraction of its size.
 inline constexpr double kRecogniseTolerance = 2e-3;
-/// From a closed, outward, checked mesh (see mesh/check.hpp). Recognises spheres and cylinders within
-/// kRecogniseTolerance unless `recognise` is false; else the mesh itself is the body.
+/// How deep facets may lie under the curved surface that their corners lie on, fraction of its radius. A
+/// regular polygon of nine sides is taken for a circle, one of eight is a polygon; no regular or Archimedean
+/// solid passes for a sphere. Where the CAD kernel gave a volume it decides besides.
+inline constexpr double kRecogniseSag = 0.065;
+/// From a closed, outward, checked mesh of one solid (see mesh/check.hpp). Recognises spheres and cylinders
+/// within kRecogniseTolerance unless `recognise` is false; else the mesh itself is the body. Corners of a
+/// faceted curved surface lie on it, so a recognised primitive has the size of its corners and more volume
+/// than the mesh; its `surface` is stretched about the centre (a cylinder: square to its axis) until it has
+/// the primitive's volume. `true_volume` [m3]: of the exact body, from the CAD kernel; 0 where nobody knows.
+/// A mesh that is its own body is then scaled about its centre of mass to that volume. InputError for a mesh
+/// without volume.
 ShapePtr make_shape(const std::string& name, const std::string& source, const TriangleMesh& mesh,
-                    bool recognise = true);
+                    bool recognise = true, double true_volume = 0);
+/// Gives a shape the tetrahedra of a mesh in the same file frame, scaled like its surface.
+ShapePtr with_tets(const Shape& shape, const TetMesh& tets);
 
 }  // namespace packbed
