@@ -1,6 +1,7 @@
 #pragma once
 // A packed bed as files: bed.h5 keeps everything bit for bit, the CSV files are for people and other
 // programs.
+#include <optional>
 #include <string>
 
 #include "bed/packed_bed.hpp"
@@ -15,6 +16,9 @@ void write_bed(const std::string& path, const PackedBed& bed, const RunRecord* r
 /// Reads bed.h5, or the bed.h5 of a result folder, bit for bit what was written. A missing, cut, changed or
 /// foreign file is an InputError (the hash is checked before HDF5 sees the file).
 PackedBed read_bed(const std::string& path_or_folder);
+
+/// The record that the bed was written with, if any; errors as read_bed.
+std::optional<RunRecord> read_run_record(const std::string& path_or_folder);
 
 /// id,shape,x_m,y_m,z_m,qw,qx,qy,qz,scale: centre of mass and rotation from the shape's own frame; numbers
 /// with as many digits as give back the same double.

@@ -1,0 +1,66 @@
+#pragma once
+// HDF5 files that are built and read in memory and sealed: a last line holds length and hash of all bytes
+// before it. So HDF5 never meets a full disk, nor a file that is cut or changed (its reader can crash on
+// such), and equal content gives equal bytes (no time stamps).
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace packbed {
+
+/// Objects are named by absolute paths; groups on the way are made. All calls throw std::runtime_error.
+class Hdf5Writer {
+ public:
+  Hdf5Writer();
+  ~Hdf5Writer();
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+
+  /// A data set of values.size() / columns rows; columns 1 makes it one-dimensional. T: double, float,
+  /// int32_t, int64_t, uint32_t, uint64_t, uint8_t.
+  template <class T>
+  void array(const std::string& path, const std::vector<T>& values, std::size_t columns = 1);
+  void text(const std::string& path, const std::string& value);  ///< a scalar string data set
+  void group(const std::string& path);
+  /// On a group or data set that exists already.
+  void attribute(const std::string& path, const std::string& name, const std::string& value);
+  void attribute(const std::string& path, const std::string& name, double value);
+  void attribute(const std::string& path, const std::string& name, std::uint64_t value);
+
+  std::string image();  ///< the bytes of the file so far
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(std::string image);
+  ~Hdf5Reader();
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+  bool has(const std::string& path) const;
+  /// Throws when there is none, its columns differ, or its type is not T.
+  template <class T>
+  std::vector<T> array(const std::string& path, std::size_t columns = 1) const;
+  std::string text(const std::string& path) const;
+  std::string text_attribute(const std::string& path, const std::string& name) const;
+  double number_attribute(const std::string& path, const std::string& name) const;
+  std::uint64_t count_attribute(const std::string& path, const std::string& name) const;
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+/// The bytes with the sealing line behind them; `kind` is one short word, e.g. "bed".
+std::string sealed(std::string_view bytes, std::string_view kind);
+/// The bytes before the seal of the file at `path`. Throws InputError when the file is missing, has no seal
+/// of this kind, or is not what was sealed.
+std::string unsealed_file(const std::string& path, std::string_view kind);
+
+}  // namespace packbed
