@@ -13,15 +13,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kFiles = {
-    result_file::kSummary,    result_file::kBed,        result_file::kBedVtu,
-    result_file::kPoses,      result_file::kContacts,   result_file::kAxial,
-    result_file::kRadial,     result_file::kPlanar,     result_file::kOrientation,
-    result_file::kAngles,     result_file::kReport,     result_file::kVoxels,
-    result_file::kCase,       result_file::kCheckpoint, result_file::kTrajectoryCsv,
-    result_file::kTrajectory, result_file::kFrames};
-
-constexpr std::string_view kTrajectorySeries = "trajectory.pvd";
+constexpr std::array kFiles = {result_file::kSummary,
+                               result_file::kBed,
+                               result_file::kBedVtu,
+                               result_file::kPoses,
+                               result_file::kContacts,
+                               result_file::kAxial,
+                               result_file::kRadial,
+                               result_file::kPlanar,
+                               result_file::kOrientation,
+                               result_file::kAngles,
+                               result_file::kReport,
+                               result_file::kVoxels,
+                               result_file::kCase,
+                               result_file::kCheckpoint,
+                               result_file::kTrajectoryCsv,
+                               result_file::kTrajectory,
+                               result_file::kTrajectorySeries,
+                               result_file::kTrajectoryLog,
+                               result_file::kContainerVtu,
+                               result_file::kFrames};
 
 void remove_temporaries(const std::string& path) {
   for (const fs::directory_entry& entry : fs::directory_iterator(path))
@@ -30,7 +41,6 @@ void remove_temporaries(const std::string& path) {
 
 void remove_earlier_run(const ResultFolder& folder) {
   for (const std::string_view name : kFiles) fs::remove_all(folder.file(name));
-  fs::remove_all(folder.file(kTrajectorySeries));
   remove_temporaries(folder.path);
 }
 

@@ -17,8 +17,16 @@ struct CellFields {
 /// height_m, angle_deg, overlap (0 when not known). Throws SystemError.
 void write_vtu(const std::string& path, const PackedBed& bed, const CellFields& fields = {});
 
-/// Every pellet as one point with glyph data: quaternion (w, x, y, z), velocity, spin, scale, shape.
+/// The same for a frame of a run.
+void write_vtu(const std::string& path, const std::vector<ShapePtr>& shapes,
+               const std::vector<Pellet>& pellets, const CellFields& fields = {});
+
+/// Every pellet as one point with glyph data: pellet, shape, scale, rotation_wxyz, velocity_m_s, spin_rad_s.
 void write_point_vtu(const std::string& path, const std::vector<Pellet>& pellets);
+
+/// The container as read, or the inside of a tube that is given by its sizes; without cells when there is
+/// nothing to draw (a plane, no container).
+void write_container_vtu(const std::string& path, const Container& container);
 
 /// Angle between the pellet's own z axis and the vertical, 0 to 90 degrees.
 double angle_to_vertical_deg(const Pellet& pellet);
