@@ -23,6 +23,7 @@ constexpr Range kSize = above_zero_to(100, "a body has a size");
 constexpr double kRestitutionAtCritical = 0.1353352832366127;
 
 void general_keys(Fields& f, CaseRecord& r) {
+  f.text({.name = "extends", .meaning = "another case file that this one changes, key by key"}, r.extends);
   f.text({.name = "folder",
           .meaning = "folder that relative file names count from; default: the one of the case file"},
          r.folder);

@@ -38,6 +38,7 @@ struct PlacedRecord {
 };
 
 struct CaseRecord {
+  std::string extends;  // always empty: what it named has been read
   std::string folder, name, method = "mesh", kernel = "auto";
   std::uint64_t seed = 1;
   Vec3 gravity{0, 0, -9.80665};  // [m/s2]
