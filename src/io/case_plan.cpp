@@ -28,6 +28,12 @@ constexpr double kBaseMemory = 40e6, kPelletMemory = 4e3;  // [bytes]
 std::string q(double si, D d) {
   return format_quantity(si, d);
 }
+std::string wall_clock(double s) {
+  if (s < 1) return "a second";
+  return s < 120    ? fmt::format("{:.0f} s", s)
+         : s < 7200 ? fmt::format("{:.0f} min", s / 60)
+                    : fmt::format("{:.1f} h", s / 3600);
+}
 
 bool uses_field(const Scene& s, const Shape& shape) {
   return s.kernel == "field" || shape.kind == ShapeClass::mesh;
@@ -168,12 +174,16 @@ std::string container_text(const Scene& s) {
   if (c.kind == ContainerKind::mesh)
     size = fmt::format(", {} triangles, height {}; walls through its mesh", c.surface.triangles.size(),
                        q(c.height, D::length));
-  return fmt::format("container\n  {}: {}{}\n", c.name, to_string(c.kind), size);
+  const std::string kind(to_string(c.kind));
+  return fmt::format("container\n  {}{}\n", c.name == kind || c.name.empty() ? kind : c.name + ": " + kind,
+                     size);
 }
 
 std::string feed_text(const Scene& s) {
   const Feed& f = s.feed;
-  if (f.kind == FeedKind::placed) return fmt::format("  {} placed pellets, no feeding\n", f.placed.size());
+  if (f.kind == FeedKind::placed)
+    return fmt::format("  {} placed pellet{}, no feeding\n", f.placed.size(),
+                       f.placed.size() == 1 ? "" : "s");
   std::vector<std::string> ends;
   if (f.count) ends.push_back(fmt::format("{} pellets", *f.count));
   if (f.height) ends.push_back("a bed of " + q(*f.height, D::length));
@@ -253,7 +263,7 @@ std::string expected_text(const Scene& s, const Expected& e) {
       q(e.step, D::time),
       s.stepping.step > 0 ? " (given)"
                           : fmt::format(" (stiffest contact / {:.3g})", s.stepping.steps_per_contact),
-      format_quantity(e.simulated, D::time, 3), e.steps, format_quantity(e.cpu, D::time, 2), e.memory / 1e6);
+      format_quantity(e.simulated, D::time, 3), e.steps, wall_clock(e.cpu), e.memory / 1e6);
 }
 
 }  // namespace

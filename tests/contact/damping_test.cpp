@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
 
 #include "math/types.hpp"
 
@@ -55,6 +58,24 @@ TEST(Damping, PublishedTableOfTheLaw) {
     EXPECT_NEAR(contact_time_factor(row[0]), row[2], 6e-6);
     EXPECT_NEAR(peak_overlap_factor(row[0]), row[3], 6e-6);
   }
+}
+
+TEST(Damping, DocumentedTable) {
+  std::ifstream docs(PACKBED_SOURCE_DIR "/docs/case.md");
+  int rows = 0;
+  for (std::string line; std::getline(docs, line);) {
+    if (line.rfind("| damping zeta", 0) == 0) rows = 1;
+    if (rows == 0 || line.find_first_of("0123456789") != 2) continue;
+    std::istringstream cells(line);
+    char bar;
+    double zeta, restitution, duration, peak;
+    ASSERT_TRUE(cells >> bar >> zeta >> bar >> restitution >> bar >> duration >> bar >> peak) << line;
+    EXPECT_NEAR(restitution_from_damping(zeta), restitution, 5.1e-5);
+    EXPECT_NEAR(contact_time_factor(zeta), duration, 5.1e-5);
+    EXPECT_NEAR(peak_overlap_factor(zeta), peak, 5.1e-5);
+    if (++rows == 11) break;
+  }
+  EXPECT_EQ(rows, 11);
 }
 
 TEST(Damping, ClosedFormsAgreeWithIntegrationAlsoPastCriticalDamping) {
