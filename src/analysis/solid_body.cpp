@@ -1,0 +1,135 @@
+#include "analysis/solid_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace packbed {
+namespace {
+
+constexpr double kApart = 1, kNone = 0;  // an empty chord: from 1 to 0
+constexpr double kFlat = 1e-9;           // planes and points that differ by less, as a fraction of the size, are one
+
+/// Planes of the faces, coplanar triangles once; empty when a vertex lies outside one, that is, not convex.
+std::vector<std::pair<Vec3, double>> convex_planes(const TriangleMesh& mesh) {
+  const double size = bounding_box(mesh).diagonal().norm();
+  std::vector<std::pair<Vec3, double>> planes;
+  for (const auto& t : mesh.triangles) {
+    const auto at = [&](std::size_t i) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[i])]; };
+    const Vec3 area = (at(1) - at(0)).cross(at(2) - at(0));
+    if (area.norm() <= kFlat * size * size) continue;
+    const Vec3 n = area.normalized();
+    const double offset = n.dot((at(0) + at(1) + at(2)) / 3);
+    const auto same = [&](const auto& p) { return (p.first - n).norm() < 1e-7 && std::abs(p.second - offset) < 1e-7 * size; };
+    if (std::any_of(planes.begin(), planes.end(), same)) continue;
+    planes.emplace_back(n, offset);
+  }
+  for (const auto& [n, offset] : planes)
+    for (const Vec3& v : mesh.vertices)
+      if (n.dot(v) > offset + 1e-6 * size) return {};
+  return planes;
+}
+
+/// Corners, middles of sides and of triangles: where bodies of flat faces dip into each other first.
+std::vector<Vec3> surface_points(const TriangleMesh& mesh) {
+  std::vector<Vec3> points = mesh.vertices;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[static_cast<std::size_t>(t[0])], &b = mesh.vertices[static_cast<std::size_t>(t[1])],
+               &c = mesh.vertices[static_cast<std::size_t>(t[2])];
+    points.push_back((a + b + c) / 3);
+    if (t[0] < t[1]) points.push_back((a + b) / 2);  // a side belongs to two triangles
+    if (t[1] < t[2]) points.push_back((b + c) / 2);
+    if (t[2] < t[0]) points.push_back((c + a) / 2);
+  }
+  return points;
+}
+
+/// Narrows [from, to] to where slope t <= room.
+bool clip(std::pair<double, double>& part, double slope, double room) {
+  if (slope > 0)
+    part.second = std::min(part.second, room / slope);
+  else if (slope < 0)
+    part.first = std::max(part.first, room / slope);
+  else
+    return room >= 0;
+  return part.first < part.second;
+}
+
+}  // namespace
+
+std::pair<double, double> sphere_chord(double radius, const Vec3& o, const Vec3& d) {
+  const double b = o.dot(d), rest = b * b - o.squaredNorm() + radius * radius;
+  if (rest <= 0) return {kApart, kNone};
+  const double root = std::sqrt(rest);
+  return {-b - root, -b + root};
+}
+
+std::pair<double, double> cylinder_chord(double radius, double half_height, const Vec3& o, const Vec3& d) {
+  const double across = d.head<2>().squaredNorm(), outside = o.head<2>().squaredNorm() - radius * radius;
+  std::pair<double, double> part{-1e300, 1e300};
+  if (across < 1e-24) {
+    if (outside >= 0) return {kApart, kNone};
+  } else {
+    const double b = o.head<2>().dot(d.head<2>()), rest = b * b - across * outside;
+    if (rest <= 0) return {kApart, kNone};
+    const double root = std::sqrt(rest);
+    part = {(-b - root) / across, (-b + root) / across};
+  }
+  if (!clip(part, d.z(), half_height - o.z()) || !clip(part, -d.z(), half_height + o.z())) return {kApart, kNone};
+  return part;
+}
+
+SolidShape::SolidShape(ShapePtr s) : shape(std::move(s)) {
+  points = surface_points(shape->surface);
+  if (shape->kind != ShapeClass::mesh) return;
+  planes = convex_planes(shape->surface);
+  convex = !planes.empty();
+  if (!convex) query = std::make_unique<MeshQuery>(shape->surface);
+}
+
+Body::Body(const SolidShape& solid, const Pellet& pellet)
+    : solid_(&solid), scale_(pellet.scale), centre_(pellet.pose.position), rotation_(pellet.pose.rotation.toRotationMatrix()) {}
+
+Vec3 Body::furthest(const Vec3& direction) const {
+  const Shape& shape = *solid_->shape;
+  const Vec3 n = rotation_.transpose() * direction;
+  Vec3 own;
+  if (shape.kind == ShapeClass::sphere) {
+    own = shape.radius * n.normalized();
+  } else if (shape.kind == ShapeClass::cylinder) {
+    const double across = n.head<2>().norm(), side = across > 1e-15 * n.norm() ? shape.radius / across : 0;
+    own = {side * n.x(), side * n.y(), std::copysign(shape.half_height, n.z())};
+  } else {
+    double best = -std::numeric_limits<double>::infinity();
+    for (const Vec3& v : shape.surface.vertices)
+      if (const double d = n.dot(v); d > best) {
+        best = d;
+        own = v;
+      }
+  }
+  return to_world(own);
+}
+
+std::pair<double, double> Body::chord(const Vec3& origin, const Vec3& direction) const {
+  const Shape& shape = *solid_->shape;
+  const Vec3 o = rotation_.transpose() * (origin - centre_), d = rotation_.transpose() * direction;
+  if (shape.kind == ShapeClass::sphere) return sphere_chord(scale_ * shape.radius, o, d);
+  if (shape.kind == ShapeClass::cylinder) return cylinder_chord(scale_ * shape.radius, scale_ * shape.half_height, o, d);
+  std::pair<double, double> part{-1e300, 1e300};
+  for (const auto& [n, offset] : solid_->planes)
+    if (!clip(part, n.dot(d), scale_ * offset - n.dot(o))) return {kApart, kNone};
+  return part;
+}
+
+double Body::depth(const Vec3& point) const {
+  const Shape& shape = *solid_->shape;
+  const Vec3 own = rotation_.transpose() * (point - centre_) / scale_;
+  if (shape.kind == ShapeClass::sphere) return scale_ * (shape.radius - own.norm());
+  if (shape.kind == ShapeClass::cylinder)
+    return scale_ * std::min(shape.radius - own.head<2>().norm(), shape.half_height - std::abs(own.z()));
+  if (!solid_->convex) return solid_->query->inside(own) ? -scale_ * solid_->query->signed_distance(own) : 0;
+  double room = std::numeric_limits<double>::infinity();
+  for (const auto& [n, offset] : solid_->planes) room = std::min(room, offset - n.dot(own));
+  return scale_ * room;
+}
+
+}  // namespace packbed
