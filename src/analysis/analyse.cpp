@@ -8,10 +8,13 @@
 #include <limits>
 
 #include "analysis/axial.hpp"
+#include "analysis/bins.hpp"
 #include "analysis/bulk.hpp"
 #include "analysis/exact_axial.hpp"
+#include "analysis/exact_radial.hpp"
 #include "analysis/layout.hpp"
 #include "analysis/orientation.hpp"
+#include "analysis/overlap.hpp"
 #include "analysis/radial.hpp"
 #include "bed/voxelise.hpp"
 #include "lattice/count.hpp"
@@ -74,16 +77,64 @@ double inside_area(const Container& container, const GridFrame& frame) {
   }
 }
 
-/// The same from the exact shapes. For a container mesh the inside is measured in voxels.
-void analyse_exact(const PackedBed& bed, const Layout& layout, AnalysisResult& result) {
+/// Takes what pellets share out of the volumes of bins, each overlap where it is.
+template <class Where>
+void take_overlaps(const std::vector<Overlap>& overlaps, const std::vector<double>& edges,
+                   std::vector<double>& volumes, const Where& where) {
+  for (const Overlap& o : overlaps) {
+    const double at = where(o);
+    if (at >= edges.front() && at < edges.back()) volumes[bin_of(edges, at)] -= o.volume;
+  }
+}
+
+/// Exact curve over the height, and the bulk density. What reaches through the wall (`outside`, within the
+/// section) counts in the curve and not in the bulk density.
+void exact_axial(const PackedBed& bed, const Layout& layout, const std::vector<Overlap>& overlaps,
+                 double outside, AnalysisResult& result) {
   const double area = inside_area(bed.container, layout.frame);
-  if (area == 0) return;
+  const auto height = [](const Overlap& o) { return o.point.z(); };
   result.axial.exact = slab_volumes(bed, layout.axial_edges);
+  take_overlaps(overlaps, layout.axial_edges, result.axial.exact, height);
   for (std::size_t k = 0; k < result.axial.exact.size(); ++k)
     result.axial.exact[k] /= area * (layout.axial_edges[k + 1] - layout.axial_edges[k]);
-  const Section& s = layout.section;
-  result.bulk.exact = slab_volumes(bed, {s.from, s.to}).front() / (area * (s.to - s.from));
+  const std::vector<double> section{layout.section.from, layout.section.to};
+  std::vector<double> solid = slab_volumes(bed, section);
+  take_overlaps(overlaps, section, solid, height);
+  result.bulk.exact = (solid.front() - outside) / (area * (section[1] - section[0]));
   if (result.axial.density.empty()) result.bulk.axial_sd = sd_in_section(result.axial.exact, layout);
+}
+
+/// Exact curve over the distance from the wall; returns the volume that reaches through it [m3].
+double exact_radial(const PackedBed& bed, const Layout& layout, const std::vector<Overlap>& overlaps,
+                    AnalysisResult& result) {
+  std::vector<double> radii;  // ascending, and one ring more outside the wall
+  for (const double e : layout.ring_edges) radii.insert(radii.begin(), layout.radius - e);
+  radii.front() = 0;
+  double furthest = layout.radius;
+  for (const Pellet& p : bed.pellets)
+    furthest =
+        std::max(furthest, p.pose.position.head<2>().norm() + p.scale * bed.shapes[p.shape]->bounding_radius);
+  radii.push_back(furthest + layout.frame.pitch);
+  const Section& s = layout.section;
+  std::vector<double> volumes = ring_volumes(bed, radii, s.from, s.to);
+  take_overlaps(overlaps, radii, volumes, [&](const Overlap& o) {
+    return o.point.z() >= s.from && o.point.z() < s.to ? o.point.head<2>().norm() : -1.0;
+  });
+  const double outside = volumes.back();
+  volumes.pop_back();
+  for (std::size_t k = 0; k < volumes.size(); ++k)
+    volumes[k] /= kPi * (radii[k + 1] * radii[k + 1] - radii[k] * radii[k]) * (s.to - s.from);
+  result.radial.exact.assign(volumes.rbegin(), volumes.rend());
+  return outside;
+}
+
+/// The curves from the exact shapes. The inside of a container mesh is known in voxels only: then there are
+/// none.
+void analyse_exact(const PackedBed& bed, const Layout& layout, const std::vector<Overlap>& overlaps,
+                   AnalysisResult& result) {
+  if (bed.container.kind == ContainerKind::mesh) return;
+  const double outside = layout.radius > 0 ? exact_radial(bed, layout, overlaps, result) : 0;
+  exact_axial(bed, layout, overlaps, outside, result);
 }
 
 }  // namespace
@@ -103,7 +154,12 @@ AnalysisResult analyse_bed(const PackedBed& bed, const AnalysisWish& wish, Voxel
     result.voxelise_cpu_s = cpu_seconds() - begin;
     analyse_voxels(grid, container_space(bed.container, layout.frame), layout, result);
   }
-  if (wish.exact) analyse_exact(bed, layout, result);
+  std::vector<Overlap> overlaps;
+  if (wish.overlap) {
+    overlaps = find_overlaps(bed);
+    result.overlap = audit_overlaps(bed, overlaps);
+  }
+  if (wish.exact) analyse_exact(bed, layout, overlaps, result);
   if (wish.orientation) result.orientation = orientation(bed);
   result.bulk.definition = definition_of_density(layout, bed.container, wish.voxels);
   result.analyse_cpu_s = cpu_seconds() - begin - result.voxelise_cpu_s;

@@ -9,13 +9,13 @@ namespace packbed {
 namespace {
 
 struct FarPoint {
-  double distance = 0;         // from the z axis [m]
+  double distance = 0;  // from the z axis [m]
   Vec3 point = Vec3::Zero();
 };
 
-/// The point of a circle (centre c, unit normal a) furthest from the z axis. Seen from above it is an ellipse with
-/// axes `radius` along a horizontal u and radius |a_z| across it; the distance has at most two maxima round it, which
-/// a scan of 32 points brackets and Newton's method finishes.
+/// The point of a circle (centre c, unit normal a) furthest from the z axis. Seen from above it is an ellipse
+/// with axes `radius` along a horizontal u and radius |a_z| across it; the distance has at most two maxima
+/// round it, which a scan of 32 points brackets and Newton's method finishes.
 FarPoint furthest_of_circle(const Vec3& c, const Vec3& a, double radius) {
   const Vec3 flat(-a.y(), a.x(), 0);
   const Vec3 u = flat.norm() > 1e-12 ? Vec3(flat.normalized()) : Vec3::UnitX(), v = a.cross(u);
@@ -29,7 +29,8 @@ FarPoint furthest_of_circle(const Vec3& c, const Vec3& a, double radius) {
     }
   }
   for (int k = 0; k < 20; ++k) {  // of half the squared distance, by its first two derivatives
-    const Eigen::Vector2d p = at(best).head<2>(), d1 = radius * (-std::sin(best) * u + std::cos(best) * v).head<2>(),
+    const Eigen::Vector2d p = at(best).head<2>(),
+                          d1 = radius * (-std::sin(best) * u + std::cos(best) * v).head<2>(),
                           d2 = -radius * (std::cos(best) * u + std::sin(best) * v).head<2>();
     const double slope = p.dot(d1), bend = d1.squaredNorm() + p.dot(d2);
     if (!(bend < 0)) break;
@@ -50,7 +51,8 @@ FarPoint furthest_from_axis(const Shape& shape, const Pellet& pellet) {
   }
   if (shape.kind == ShapeClass::cylinder) {  // the distance is a convex function: its maximum is on a rim
     const Vec3 a = pellet.pose.rotation * Vec3::UnitZ(), up = pellet.scale * shape.half_height * a;
-    const FarPoint p = furthest_of_circle(c + up, a, pellet.scale * shape.radius), q = furthest_of_circle(c - up, a, pellet.scale * shape.radius);
+    const FarPoint p = furthest_of_circle(c + up, a, pellet.scale * shape.radius),
+                   q = furthest_of_circle(c - up, a, pellet.scale * shape.radius);
     return p.distance > q.distance ? p : q;
   }
   for (const Vec3& v : shape.surface.vertices) {
@@ -68,7 +70,8 @@ void add_floor(const PackedBed& bed, const std::vector<Body>& bodies, std::vecto
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Pellet& p = bed.pellets[i];
     const double depth = reach(*bed.shapes[p.shape], p, -Vec3::UnitZ());
-    if (depth > 0) overlaps.push_back(with_container(i, depth, bodies[i], bodies[i].furthest(-Vec3::UnitZ())));
+    if (depth > 0)
+      overlaps.push_back(with_container(i, depth, bodies[i], bodies[i].furthest(-Vec3::UnitZ())));
   }
 }
 
@@ -77,12 +80,14 @@ void add_tube_wall(const PackedBed& bed, const std::vector<Body>& bodies, std::v
     const Pellet& p = bed.pellets[i];
     if (bodies[i].centre().head<2>().norm() + bodies[i].bounding_radius() <= bed.container.radius) continue;
     const FarPoint far = furthest_from_axis(*bed.shapes[p.shape], p);
-    if (far.distance > bed.container.radius) overlaps.push_back(with_container(i, far.distance - bed.container.radius, bodies[i], far.point));
+    if (far.distance > bed.container.radius)
+      overlaps.push_back(with_container(i, far.distance - bed.container.radius, bodies[i], far.point));
   }
 }
 
 /// The deepest point of the pellet in the wall, or of the wall in the pellet.
-void add_wall_mesh(const Container& container, const std::vector<Body>& bodies, std::vector<Overlap>& overlaps) {
+void add_wall_mesh(const Container& container, const std::vector<Body>& bodies,
+                   std::vector<Overlap>& overlaps) {
   const MeshQuery wall(container.surface);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
@@ -91,7 +96,8 @@ void add_wall_mesh(const Container& container, const std::vector<Body>& bodies, 
     for (const Vec3& own : body.solid().points) {
       const Vec3 p = body.to_world(own);
       if (!wall.inside(p)) continue;
-      if (const double d = -wall.signed_distance(p); d > deepest.depth) deepest = with_container(i, d, body, p);
+      if (const double d = -wall.signed_distance(p); d > deepest.depth)
+        deepest = with_container(i, d, body, p);
     }
     for (const Vec3& v : container.surface.vertices) {
       if ((v - body.centre()).norm() >= body.bounding_radius()) continue;
@@ -103,18 +109,25 @@ void add_wall_mesh(const Container& container, const std::vector<Body>& bodies, 
 
 }  // namespace
 
-double reach_from_axis(const Shape& shape, const Pellet& pellet) { return furthest_from_axis(shape, pellet).distance; }
+double reach_from_axis(const Shape& shape, const Pellet& pellet) {
+  return furthest_from_axis(shape, pellet).distance;
+}
 
 std::vector<Overlap> container_overlaps(const PackedBed& bed, const std::vector<Body>& bodies) {
   std::vector<Overlap> overlaps;
   switch (bed.container.kind) {
-    case ContainerKind::none: break;
-    case ContainerKind::plane: add_floor(bed, bodies, overlaps); break;
+    case ContainerKind::none:
+      break;
+    case ContainerKind::plane:
+      add_floor(bed, bodies, overlaps);
+      break;
     case ContainerKind::tube:
       add_floor(bed, bodies, overlaps);
       add_tube_wall(bed, bodies, overlaps);
       break;
-    case ContainerKind::mesh: add_wall_mesh(bed.container, bodies, overlaps); break;
+    case ContainerKind::mesh:
+      add_wall_mesh(bed.container, bodies, overlaps);
+      break;
   }
   return overlaps;
 }

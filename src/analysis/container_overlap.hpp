@@ -7,7 +7,8 @@
 
 namespace packbed {
 
-/// One entry for the wall and one for the floor of each pellet that meets them. bodies: one a pellet of the bed.
+/// One entry for the wall and one for the floor of each pellet that meets them. bodies: one a pellet of the
+/// bed.
 std::vector<Overlap> container_overlaps(const PackedBed& bed, const std::vector<Body>& bodies);
 
 }  // namespace packbed

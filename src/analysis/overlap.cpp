@@ -21,7 +21,8 @@ std::vector<Pair> near_pairs(const std::vector<Body>& bodies) {
   const auto low = [&](std::uint32_t i) { return bodies[i].centre().z() - bodies[i].bounding_radius(); };
   std::vector<std::uint32_t> order(bodies.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return std::pair(low(i), i) < std::pair(low(j), j); });
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t i, std::uint32_t j) { return std::pair(low(i), i) < std::pair(low(j), j); });
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Body& a = bodies[order[i]];
@@ -29,7 +30,8 @@ std::vector<Pair> near_pairs(const std::vector<Body>& bodies) {
     for (std::size_t j = i + 1; j < order.size() && low(order[j]) < top; ++j) {
       const Body& b = bodies[order[j]];
       const double reach = a.bounding_radius() + b.bounding_radius();
-      if ((a.centre() - b.centre()).squaredNorm() < reach * reach) pairs.push_back(std::minmax(order[i], order[j]));
+      if ((a.centre() - b.centre()).squaredNorm() < reach * reach)
+        pairs.push_back(std::minmax(order[i], order[j]));
     }
   }
   std::sort(pairs.begin(), pairs.end());
@@ -75,11 +77,14 @@ std::vector<Overlap> find_overlaps(const PackedBed& bed) {
   const std::vector<Pair> pairs = near_pairs(bodies);
   std::vector<Overlap> all(pairs.size());
   parallel_for(pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) all[i] = between(bodies[pairs[i].first], bodies[pairs[i].second], pairs[i]);
+    for (std::size_t i = begin; i < end; ++i)
+      all[i] = between(bodies[pairs[i].first], bodies[pairs[i].second], pairs[i]);
   });
   for (const Overlap& o : container_overlaps(bed, bodies)) all.push_back(o);
   std::erase_if(all, [](const Overlap& o) { return !(o.fraction > kTouching); });
-  std::stable_sort(all.begin(), all.end(), [](const Overlap& p, const Overlap& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  std::stable_sort(all.begin(), all.end(), [](const Overlap& p, const Overlap& q) {
+    return std::pair(p.a, p.b) < std::pair(q.a, q.b);
+  });
   return all;
 }
 

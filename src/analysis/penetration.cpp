@@ -7,7 +7,8 @@
 namespace packbed {
 namespace {
 
-constexpr int kMostFaces = 4000;  // curved pairs need some 100; this only stops what rounding keeps from ending
+constexpr int kMostFaces =
+    4000;  // curved pairs need some 100; this only stops what rounding keeps from ending
 constexpr double kTolerance = 1e-9;
 
 /// A point of the difference body and where it comes from, relative to a's centre.
@@ -24,14 +25,18 @@ struct Face {
 class GrowingPolytope {
  public:
   GrowingPolytope(const Body& a, const Body& b)
-      : a_(a), b_(b), size_(a.bounding_radius() + b.bounding_radius()), tolerance_(kTolerance * std::min(a.thickness(), b.thickness())) {}
+      : a_(a),
+        b_(b),
+        size_(a.bounding_radius() + b.bounding_radius()),
+        tolerance_(kTolerance * std::min(a.thickness(), b.thickness())) {}
 
   std::optional<Penetration> run() {
     if (!first_tetrahedron()) return std::nullopt;
     Penetration best;
     best.depth = size_ * 4;
     while (faces_.size() < kMostFaces) {
-      const Face face = *std::min_element(faces_.begin(), faces_.end(), [](const Face& f, const Face& g) { return f.distance < g.distance; });
+      const Face face = *std::min_element(
+          faces_.begin(), faces_.end(), [](const Face& f, const Face& g) { return f.distance < g.distance; });
       const Corner far = furthest(face.normal);
       const double reach = face.normal.dot(far.point);
       if (reach <= 0) return std::nullopt;
@@ -69,7 +74,8 @@ class GrowingPolytope {
   }
   const Vec3& at(int i) const { return corners_[static_cast<std::size_t>(i)].point; }
 
-  /// Four far corners, none in the plane of the others; false when the bodies are apart along one of the directions.
+  /// Four far corners, none in the plane of the others; false when the bodies are apart along one of the
+  /// directions.
   bool first_tetrahedron() {
     Vec3 n = b_.centre() - a_.centre();
     n = n.norm() > 1e-12 * size_ ? n.normalized() : Vec3::UnitX();
@@ -79,7 +85,8 @@ class GrowingPolytope {
     };
     if (!take(n) || !take(-n)) return false;
     const Vec3 line = at(1) - at(0), t = line.unitOrthogonal(), u = line.normalized().cross(t);
-    if (!take_furthest({t, -t, u, -u}, [&](const Vec3& p) { return line.cross(p - at(0)).norm(); })) return false;
+    if (!take_furthest({t, -t, u, -u}, [&](const Vec3& p) { return line.cross(p - at(0)).norm(); }))
+      return false;
     const Vec3 up = line.cross(at(2) - at(0)).normalized();
     if (!take_furthest({up, -up}, [&](const Vec3& p) { return std::abs(up.dot(p - at(0))); })) return false;
     const bool turned = up.dot(at(3) - at(0)) > 0;  // then 0 1 2 seen from corner 3 runs counter-clockwise
@@ -142,7 +149,9 @@ class GrowingPolytope {
     const double whole = area.squaredNorm();
     Vec3 w(1, 1, 1);
     if (whole > 0)
-      w = Vec3((r - q).cross(foot - q).dot(area), (p - r).cross(foot - r).dot(area), (q - p).cross(foot - p).dot(area)) / whole;
+      w = Vec3((r - q).cross(foot - q).dot(area), (p - r).cross(foot - r).dot(area),
+               (q - p).cross(foot - p).dot(area)) /
+          whole;
     w = w.cwiseMax(0);
     w /= w.sum();
     Vec3 middle = Vec3::Zero();
@@ -172,7 +181,9 @@ std::optional<Penetration> between_spheres(const Body& a, const Body& b) {
   return p;
 }
 
-bool is_sphere(const Body& b) { return b.solid().shape->kind == ShapeClass::sphere; }
+bool is_sphere(const Body& b) {
+  return b.solid().shape->kind == ShapeClass::sphere;
+}
 
 }  // namespace
 
@@ -184,8 +195,10 @@ std::optional<Penetration> penetration(const Body& a, const Body& b) {
 double shared_volume(const Body& a, const Body& b, const Penetration& p) {
   constexpr int kRays = 16;
   // Gauss-Legendre on [0, 1], four nodes (Abramowitz & Stegun, 1964, table 25.4)
-  constexpr std::array<double, 4> node{0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
-  constexpr std::array<double, 4> weight{0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
+  constexpr std::array<double, 4> node{0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                       0.9305681557970263};
+  constexpr std::array<double, 4> weight{0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                         0.1739274225687269};
   const Vec3 t = p.normal.unitOrthogonal(), u = p.normal.cross(t);
   const auto shared_length = [&](const Vec3& at) {
     const auto [from_a, to_a] = a.chord(at, p.normal);
@@ -203,7 +216,8 @@ double shared_volume(const Body& a, const Body& b, const Penetration& p) {
       in = out;
       out = 2 * out;
     }
-    for (int k = 0; k < 8; ++k) (shared_length(p.point + (in + out) / 2 * ray) > 0 ? in : out) = (in + out) / 2;
+    for (int k = 0; k < 8; ++k)
+      (shared_length(p.point + (in + out) / 2 * ray) > 0 ? in : out) = (in + out) / 2;
     for (std::size_t k = 0; k < node.size(); ++k) {
       const double r = in * node[k];
       volume += 2 * kPi / kRays * in * weight[k] * r * shared_length(p.point + r * ray);

@@ -7,19 +7,23 @@ namespace packbed {
 namespace {
 
 constexpr double kApart = 1, kNone = 0;  // an empty chord: from 1 to 0
-constexpr double kFlat = 1e-9;           // planes and points that differ by less, as a fraction of the size, are one
+constexpr double kFlat = 1e-9;  // planes and points that differ by less, as a fraction of the size, are one
 
 /// Planes of the faces, coplanar triangles once; empty when a vertex lies outside one, that is, not convex.
 std::vector<std::pair<Vec3, double>> convex_planes(const TriangleMesh& mesh) {
   const double size = bounding_box(mesh).diagonal().norm();
   std::vector<std::pair<Vec3, double>> planes;
   for (const auto& t : mesh.triangles) {
-    const auto at = [&](std::size_t i) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[i])]; };
+    const auto at = [&](std::size_t i) -> const Vec3& {
+      return mesh.vertices[static_cast<std::size_t>(t[i])];
+    };
     const Vec3 area = (at(1) - at(0)).cross(at(2) - at(0));
     if (area.norm() <= kFlat * size * size) continue;
     const Vec3 n = area.normalized();
     const double offset = n.dot((at(0) + at(1) + at(2)) / 3);
-    const auto same = [&](const auto& p) { return (p.first - n).norm() < 1e-7 && std::abs(p.second - offset) < 1e-7 * size; };
+    const auto same = [&](const auto& p) {
+      return (p.first - n).norm() < 1e-7 && std::abs(p.second - offset) < 1e-7 * size;
+    };
     if (std::any_of(planes.begin(), planes.end(), same)) continue;
     planes.emplace_back(n, offset);
   }
@@ -33,7 +37,8 @@ std::vector<std::pair<Vec3, double>> convex_planes(const TriangleMesh& mesh) {
 std::vector<Vec3> surface_points(const TriangleMesh& mesh) {
   std::vector<Vec3> points = mesh.vertices;
   for (const auto& t : mesh.triangles) {
-    const Vec3 &a = mesh.vertices[static_cast<std::size_t>(t[0])], &b = mesh.vertices[static_cast<std::size_t>(t[1])],
+    const Vec3 &a = mesh.vertices[static_cast<std::size_t>(t[0])],
+               &b = mesh.vertices[static_cast<std::size_t>(t[1])],
                &c = mesh.vertices[static_cast<std::size_t>(t[2])];
     points.push_back((a + b + c) / 3);
     if (t[0] < t[1]) points.push_back((a + b) / 2);  // a side belongs to two triangles
@@ -74,7 +79,8 @@ std::pair<double, double> cylinder_chord(double radius, double half_height, cons
     const double root = std::sqrt(rest);
     part = {(-b - root) / across, (-b + root) / across};
   }
-  if (!clip(part, d.z(), half_height - o.z()) || !clip(part, -d.z(), half_height + o.z())) return {kApart, kNone};
+  if (!clip(part, d.z(), half_height - o.z()) || !clip(part, -d.z(), half_height + o.z()))
+    return {kApart, kNone};
   return part;
 }
 
@@ -87,12 +93,15 @@ SolidShape::SolidShape(ShapePtr s) : shape(std::move(s)) {
 }
 
 Body::Body(const SolidShape& solid, const Pellet& pellet)
-    : solid_(&solid), scale_(pellet.scale), centre_(pellet.pose.position), rotation_(pellet.pose.rotation.toRotationMatrix()) {}
+    : solid_(&solid),
+      scale_(pellet.scale),
+      centre_(pellet.pose.position),
+      rotation_(pellet.pose.rotation.toRotationMatrix()) {}
 
 Vec3 Body::furthest(const Vec3& direction) const {
   const Shape& shape = *solid_->shape;
   const Vec3 n = rotation_.transpose() * direction;
-  Vec3 own;
+  Vec3 own = Vec3::Zero();
   if (shape.kind == ShapeClass::sphere) {
     own = shape.radius * n.normalized();
   } else if (shape.kind == ShapeClass::cylinder) {
@@ -113,7 +122,8 @@ std::pair<double, double> Body::chord(const Vec3& origin, const Vec3& direction)
   const Shape& shape = *solid_->shape;
   const Vec3 o = rotation_.transpose() * (origin - centre_), d = rotation_.transpose() * direction;
   if (shape.kind == ShapeClass::sphere) return sphere_chord(scale_ * shape.radius, o, d);
-  if (shape.kind == ShapeClass::cylinder) return cylinder_chord(scale_ * shape.radius, scale_ * shape.half_height, o, d);
+  if (shape.kind == ShapeClass::cylinder)
+    return cylinder_chord(scale_ * shape.radius, scale_ * shape.half_height, o, d);
   std::pair<double, double> part{-1e300, 1e300};
   for (const auto& [n, offset] : solid_->planes)
     if (!clip(part, n.dot(d), scale_ * offset - n.dot(o))) return {kApart, kNone};

@@ -1,6 +1,6 @@
 #pragma once
-// A pellet as plain geometry: furthest points, chords, depth of a point. Shares nothing with the contact kernels, so
-// that the audit of a run is an independent witness.
+// A pellet as plain geometry: furthest points, chords, depth of a point. Shares nothing with the contact
+// kernels, so that the audit of a run is an independent witness.
 #include <memory>
 #include <utility>
 #include <vector>

@@ -76,7 +76,7 @@ struct AnalysisWish {
   double from_diameters = 3;  // middle section for the bulk density: from this height ...
   double to_diameters = 17;   // ... to this height above the floor, in pellet diameters (see diameter)
   double diameter = 0;        // dp of all scaled axes [m]; 0: diameter of the sphere of equal volume
-  bool voxels = true, orientation = true, exact = true;
+  bool voxels = true, orientation = true, exact = true, overlap = true;
 };
 
 struct OutputWish {
