@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kMemoryStep = 1 << 20;  // by which the image grows [byte]
 constexpr std::size_t kCompressFrom = 4096;   // smaller arrays are kept as they are [byte]
 constexpr hsize_t kChunkRows = 16384;         // a chunk is the unit of compression
+constexpr hsize_t kGrowingRows = 4096;        // of a data set that grows by frames
 constexpr std::size_t kSealLength = 64;       // fixed, so that the seal is found from the end
 constexpr std::string_view kSealMark = "\npackbed ";
 
@@ -122,8 +123,19 @@ Hdf5Writer::Hdf5Writer() : file_(std::make_unique<File>()) {
   need(file_->id < 0 ? -1 : 0, "making a file in memory");
 }
 
+Hdf5Writer::Hdf5Writer(const std::string& path) : file_(std::make_unique<File>()) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const Id creation = untimed(H5P_FILE_CREATE);
+  file_->id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
+  need(file_->id < 0 ? -1 : 0, "making " + path);
+}
+
 Hdf5Writer::~Hdf5Writer() {
-  H5Fclose(file_->id);
+  if (file_->id >= 0) H5Fclose(file_->id);
+}
+
+void Hdf5Writer::close() {
+  need(H5Fclose(std::exchange(file_->id, -1)), "writing the file (is the disk full?)");
 }
 
 template <class T>
@@ -143,6 +155,47 @@ void Hdf5Writer::array(const std::string& path, const std::vector<T>& values, st
                 H5Dclose, "making " + path);
   if (!values.empty())
     need(H5Dwrite(data, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "writing " + path);
+}
+
+namespace {
+
+/// An empty data set that can grow.
+template <class T>
+void make_growing(hid_t file, const std::string& path, std::size_t columns) {
+  const hsize_t size[2] = {0, columns}, most[2] = {H5S_UNLIMITED, columns},
+                chunk[2] = {kGrowingRows, columns};
+  const int rank = columns == 1 ? 1 : 2;
+  const Id space(H5Screate_simple(rank, size, most), H5Sclose, "sizing " + path);
+  const Id creation = untimed(H5P_DATASET_CREATE);
+  need(H5Pset_chunk(creation, rank, chunk), "chunking " + path);
+  need(H5Pset_shuffle(creation), "compressing " + path);
+  need(H5Pset_deflate(creation, 4), "compressing " + path);
+  const Id links = parents_on_the_way();
+  const Id made(H5Dcreate2(file, path.c_str(), type_of<T>(), space, links, creation, H5P_DEFAULT), H5Dclose,
+                "making " + path);
+}
+
+}  // namespace
+
+template <class T>
+void Hdf5Writer::append(const std::string& path, const std::vector<T>& values, std::size_t columns) {
+  if (H5Lexists(file_->id, path.c_str(), H5P_DEFAULT) <= 0) make_growing<T>(file_->id, path, columns);
+  if (values.empty()) return;
+  const int rank = columns == 1 ? 1 : 2;
+  const Id data(H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Dclose, "opening " + path);
+  hsize_t old[2] = {0, columns};
+  {
+    const Id space(H5Dget_space(data), H5Sclose, "asking the size of " + path);
+    need(H5Sget_simple_extent_dims(space, old, nullptr), "asking the size of " + path);
+  }
+  const hsize_t added[2] = {values.size() / columns, columns}, start[2] = {old[0], 0};
+  const hsize_t whole[2] = {old[0] + added[0], columns};
+  need(H5Dset_extent(data, whole), "growing " + path);
+  const Id space(H5Dget_space(data), H5Sclose, "asking the size of " + path);
+  need(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, added, nullptr),
+       "choosing rows of " + path);
+  const Id memory(H5Screate_simple(rank, added, nullptr), H5Sclose, "sizing " + path);
+  need(H5Dwrite(data, type_of<T>(), memory, space, H5P_DEFAULT, values.data()), "writing " + path);
 }
 
 void Hdf5Writer::text(const std::string& path, const std::string& value) {
@@ -279,8 +332,9 @@ std::uint64_t Hdf5Reader::count_attribute(const std::string& path, const std::st
   return value;
 }
 
-#define PACKBED_HDF5_TYPE(T)                                                                  \
-  template void Hdf5Writer::array<T>(const std::string&, const std::vector<T>&, std::size_t); \
+#define PACKBED_HDF5_TYPE(T)                                                                   \
+  template void Hdf5Writer::array<T>(const std::string&, const std::vector<T>&, std::size_t);  \
+  template void Hdf5Writer::append<T>(const std::string&, const std::vector<T>&, std::size_t); \
   template std::vector<T> Hdf5Reader::array<T>(const std::string&, std::size_t) const;
 PACKBED_HDF5_TYPE(double)
 PACKBED_HDF5_TYPE(float)

@@ -13,7 +13,8 @@ namespace packbed {
 /// Objects are named by absolute paths; groups on the way are made. All calls throw std::runtime_error.
 class Hdf5Writer {
  public:
-  Hdf5Writer();
+  Hdf5Writer();                                  ///< in memory
+  explicit Hdf5Writer(const std::string& path);  ///< on disk, for what may not fit into memory; not sealed
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -22,6 +23,9 @@ class Hdf5Writer {
   /// int32_t, int64_t, uint32_t, uint64_t, uint8_t.
   template <class T>
   void array(const std::string& path, const std::vector<T>& values, std::size_t columns = 1);
+  /// Rows behind those that are there; the first call makes the data set.
+  template <class T>
+  void append(const std::string& path, const std::vector<T>& values, std::size_t columns = 1);
   void text(const std::string& path, const std::string& value);  ///< a scalar string data set
   void group(const std::string& path);
   /// On a group or data set that exists already.
@@ -29,7 +33,8 @@ class Hdf5Writer {
   void attribute(const std::string& path, const std::string& name, double value);
   void attribute(const std::string& path, const std::string& name, std::uint64_t value);
 
-  std::string image();  ///< the bytes of the file so far
+  std::string image();  ///< the bytes of the file so far (in memory only)
+  void close();         ///< throws when not everything could be written
 
  private:
   struct File;

@@ -1,31 +1,35 @@
 #pragma once
 // Frames of a run as they happen. A kill at any moment leaves the frames before it readable, and a resumed
-// run goes on behind the last one that is not ahead of its checkpoint.
+// run goes on where its own frames begin, without doubles.
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "bed/packed_bed.hpp"
 #include "io/result_folder.hpp"
 #include "packers/packer.hpp"
 
 namespace packbed {
 
-/// Scenes of more pellets than this get no trajectory.csv and no surfaces in their ParaView frames.
+/// Scenes of more pellets get no trajectory.csv, and points instead of surfaces in their ParaView frames.
 inline constexpr int kSmallScene = 1000;
 
-/// Writes trajectory.h5, frames/frame_000000.vtu ... with trajectory.pvd, and trajectory.csv for small
-/// scenes.
+/// While the run goes on: frames/frame_000000.vtu ..., trajectory.pvd, trajectory.csv (small scenes) and
+/// trajectory.part, which finish() turns into trajectory.h5.
 class TrajectoryWriter {
  public:
-  /// A new trajectory, or the one of an interrupted run: frames later than `resume_from` [s] are dropped,
-  /// because the run will give them again. Pass a negative number for a new one. Throws SystemError,
-  /// InputError.
-  TrajectoryWriter(const ResultFolder& folder, const std::vector<ShapePtr>& shapes, double resume_from = -1);
+  /// A new trajectory, or with `resume` the one of an interrupted run. `pellets`: how many the run will have.
+  /// Throws SystemError.
+  TrajectoryWriter(const ResultFolder& folder, const std::vector<ShapePtr>& shapes, int pellets,
+                   bool resume = false);
   ~TrajectoryWriter();
   TrajectoryWriter(const TrajectoryWriter&) = delete;
   TrajectoryWriter& operator=(const TrajectoryWriter&) = delete;
 
-  void add(const Snapshot& snapshot);  ///< on disk when it returns; a time that is already there is skipped
+  /// Written when it returns. Frames that are already there for this time or later ones are replaced: a
+  /// resumed run gives them again.
+  void add(const Snapshot& snapshot);
+  /// Makes trajectory.h5 of all frames and removes trajectory.part.
+  void finish();
   int frames() const;
 
  private:
