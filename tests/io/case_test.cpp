@@ -323,6 +323,10 @@ TEST_F(CaseFiles, MissingFileIsRefused) {
 TEST(CaseRefuses, TextThatIsNotToml) {
   expect_refused("friction = 0.6", "friction = = 0.6", {"bed.toml:11:12", "not TOML"});
   EXPECT_NE(refusal(kCase + "\"").find("not TOML"), std::string::npos);
+  // toml++ 3.3 asserts on these when it is used as headers only, without NDEBUG: it has to be the compiled
+  // library
+  for (const char* header : {"[{a]", "[[[a]]]", "[=", "[[="})
+    EXPECT_NE(refusal(header).find("not TOML"), std::string::npos) << header;
 }
 
 TEST(CaseRefuses, UnknownKeyAndNamesTheNearest) {
