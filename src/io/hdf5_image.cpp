@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <fstream>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -198,6 +199,27 @@ void Hdf5Writer::append(const std::string& path, const std::vector<T>& values, s
   need(H5Dwrite(data, type_of<T>(), memory, space, H5P_DEFAULT, values.data()), "writing " + path);
 }
 
+template <class T>
+void Hdf5Writer::volume(const std::string& path, const std::array<std::size_t, 3>& size,
+                        const std::function<void(std::size_t, T*)>& fill) {
+  const hsize_t whole[3] = {size[0], size[1], size[2]}, slice[3] = {1, size[1], size[2]};
+  const Id space(H5Screate_simple(3, whole, nullptr), H5Sclose, "sizing " + path);
+  const Id creation = untimed(H5P_DATASET_CREATE);
+  need(H5Pset_chunk(creation, 3, slice), "chunking " + path);
+  need(H5Pset_deflate(creation, 1), "compressing " + path);  // more gains little on grids and takes long
+  const Id links = parents_on_the_way();
+  const Id data(H5Dcreate2(file_->id, path.c_str(), type_of<T>(), space, links, creation, H5P_DEFAULT),
+                H5Dclose, "making " + path);
+  const Id memory(H5Screate_simple(3, slice, nullptr), H5Sclose, "sizing " + path);
+  std::vector<T> values(size[1] * size[2]);
+  for (std::size_t z = 0; z < size[0]; ++z) {
+    fill(z, values.data());
+    const hsize_t from[3] = {z, 0, 0};
+    need(H5Sselect_hyperslab(space, H5S_SELECT_SET, from, nullptr, slice, nullptr), "selecting in " + path);
+    need(H5Dwrite(data, type_of<T>(), memory, space, H5P_DEFAULT, values.data()), "writing " + path);
+  }
+}
+
 void Hdf5Writer::text(const std::string& path, const std::string& value) {
   const std::string bytes = padded(value);
   const Id type = string_type(bytes.size());
@@ -218,10 +240,12 @@ void Hdf5Writer::group(const std::string& path) {
 
 namespace {
 
+/// One value, or a list when count is not 0.
 void put_attribute(hid_t file, const std::string& path, const std::string& name, hid_t type,
-                   const void* value) {
+                   const void* value, hsize_t count = 0) {
   const Id object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, "opening " + path);
-  const Id space(H5Screate(H5S_SCALAR), H5Sclose, "sizing " + name);
+  const Id space(count ? H5Screate_simple(1, &count, nullptr) : H5Screate(H5S_SCALAR), H5Sclose,
+                 "sizing " + name);
   const Id made(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
                 "making " + name);
   need(H5Awrite(made, type, value), "writing " + name);
@@ -240,6 +264,16 @@ void Hdf5Writer::attribute(const std::string& path, const std::string& name, dou
 
 void Hdf5Writer::attribute(const std::string& path, const std::string& name, std::uint64_t value) {
   put_attribute(file_->id, path, name, H5T_NATIVE_UINT64, &value);
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name,
+                           const std::vector<double>& values) {
+  put_attribute(file_->id, path, name, H5T_NATIVE_DOUBLE, values.data(), values.size());
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name,
+                           const std::vector<std::int64_t>& values) {
+  put_attribute(file_->id, path, name, H5T_NATIVE_INT64, values.data(), values.size());
 }
 
 std::string Hdf5Writer::image() {
@@ -288,6 +322,22 @@ std::vector<T> Hdf5Reader::array(const std::string& path, std::size_t columns) c
       (rank == 2 && size[1] != columns) || H5Tequal(type, type_of<T>()) <= 0)
     throw std::runtime_error(path + " has another form than expected");
   std::vector<T> values(size[0] * columns);
+  if (!values.empty())
+    need(H5Dread(data, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "reading " + path);
+  return values;
+}
+
+template <class T>
+std::vector<T> Hdf5Reader::volume(const std::string& path, std::array<std::size_t, 3>& size) const {
+  const Id data(H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Dclose, "opening " + path);
+  const Id type(H5Dget_type(data), H5Tclose, "asking the type of " + path);
+  const Id space(H5Dget_space(data), H5Sclose, "asking the size of " + path);
+  hsize_t extent[3] = {0, 0, 0};
+  if (H5Sget_simple_extent_ndims(space) != 3 || H5Sget_simple_extent_dims(space, extent, nullptr) < 0 ||
+      H5Tequal(type, type_of<T>()) <= 0)
+    throw std::runtime_error(path + " has another form than expected");
+  size = {extent[0], extent[1], extent[2]};
+  std::vector<T> values(size[0] * size[1] * size[2]);
   if (!values.empty())
     need(H5Dread(data, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "reading " + path);
   return values;
@@ -344,6 +394,14 @@ PACKBED_HDF5_TYPE(std::uint32_t)
 PACKBED_HDF5_TYPE(std::uint64_t)
 PACKBED_HDF5_TYPE(std::uint8_t)
 #undef PACKBED_HDF5_TYPE
+#define PACKBED_HDF5_VOLUME(T)                                                               \
+  template void Hdf5Writer::volume<T>(const std::string&, const std::array<std::size_t, 3>&, \
+                                      const std::function<void(std::size_t, T*)>&);          \
+  template std::vector<T> Hdf5Reader::volume<T>(const std::string&, std::array<std::size_t, 3>&) const;
+PACKBED_HDF5_VOLUME(std::int32_t)
+PACKBED_HDF5_VOLUME(std::uint64_t)
+PACKBED_HDF5_VOLUME(std::uint8_t)
+#undef PACKBED_HDF5_VOLUME
 
 namespace {
 
@@ -382,6 +440,15 @@ std::string unsealed_file(const std::string& path, std::string_view kind) {
     throw InputError(path, "a file that was changed after it was written (its hash does not fit)", allowed,
                      "take an undamaged copy, or run the case again");
   return content;
+}
+
+bool is_sealed_as(const std::string& path, std::string_view kind) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file || file.tellg() < static_cast<std::streamoff>(kSealLength)) return false;
+  file.seekg(-static_cast<std::streamoff>(kSealLength), std::ios::end);
+  std::string seal(kSealLength, '\0');
+  file.read(seal.data(), static_cast<std::streamsize>(seal.size()));
+  return file && seal.starts_with(fmt::format("{}{} ", kSealMark, kind));
 }
 
 }  // namespace packbed

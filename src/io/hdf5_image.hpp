@@ -2,7 +2,9 @@
 // HDF5 files that are built and read in memory and sealed: a last line holds length and hash of all bytes
 // before it. So HDF5 never meets a full disk, nor a file that is cut or changed (its reader can crash on
 // such), and equal content gives equal bytes (no time stamps).
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -27,11 +29,18 @@ class Hdf5Writer {
   template <class T>
   void append(const std::string& path, const std::vector<T>& values, std::size_t columns = 1);
   void text(const std::string& path, const std::string& value);  ///< a scalar string data set
+  /// A three-dimensional data set made slice by slice, so that it is never whole in memory: fill(z, slice)
+  /// writes the size[1] x size[2] values of slice z. T: uint8_t, int32_t, uint64_t.
+  template <class T>
+  void volume(const std::string& path, const std::array<std::size_t, 3>& size,
+              const std::function<void(std::size_t, T*)>& fill);
   void group(const std::string& path);
   /// On a group or data set that exists already.
   void attribute(const std::string& path, const std::string& name, const std::string& value);
   void attribute(const std::string& path, const std::string& name, double value);
   void attribute(const std::string& path, const std::string& name, std::uint64_t value);
+  void attribute(const std::string& path, const std::string& name, const std::vector<double>& values);
+  void attribute(const std::string& path, const std::string& name, const std::vector<std::int64_t>& values);
 
   std::string image();  ///< the bytes of the file so far (in memory only)
   void close();         ///< throws when not everything could be written
@@ -52,6 +61,9 @@ class Hdf5Reader {
   /// Throws when there is none, its columns differ, or its type is not T.
   template <class T>
   std::vector<T> array(const std::string& path, std::size_t columns = 1) const;
+  /// A three-dimensional data set; `size` receives its size. T: int32_t, uint64_t.
+  template <class T>
+  std::vector<T> volume(const std::string& path, std::array<std::size_t, 3>& size) const;
   std::string text(const std::string& path) const;
   std::string text_attribute(const std::string& path, const std::string& name) const;
   double number_attribute(const std::string& path, const std::string& name) const;
@@ -67,5 +79,8 @@ std::string sealed(std::string_view bytes, std::string_view kind);
 /// The bytes before the seal of the file at `path`. Throws InputError when the file is missing, has no seal
 /// of this kind, or is not what was sealed.
 std::string unsealed_file(const std::string& path, std::string_view kind);
+
+/// True when the file ends with the seal of that kind; its bytes are not looked at.
+bool is_sealed_as(const std::string& path, std::string_view kind);
 
 }  // namespace packbed
