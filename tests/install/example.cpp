@@ -11,7 +11,7 @@ int main() {
   for (std::uint32_t i = 0; i < 2; ++i) {
     packbed::Pellet pellet;
     pellet.id = pellet.shape = i;
-    pellet.pose.position = {0, 0, 2e-3 + 4e-3 * i};
+    pellet.pose.position = {0, 0, 3e-3 + 5e-3 * i};
     pellet.pose.rotation = packbed::Random(1, packbed::Stream::test, i).rotation();
     bed.pellets.push_back(pellet);
   }
