@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/damping.hpp"
 #include "io/case.hpp"
 #include "math/quantity.hpp"
 
@@ -35,8 +34,19 @@ std::string wall_clock(double s) {
                     : fmt::format("{:.1f} h", s / 3600);
 }
 
+/// What a kernel can do alone; shapes of different kernels, and walls of triangles, are met through the
+/// field.
+ShapeClass own_kernel(const Scene& s, const Shape& shape) {
+  return s.kernel == "field" ? ShapeClass::mesh : shape.kind;
+}
+bool mixed_kernels(const Scene& s) {
+  return std::any_of(s.pellets.begin(), s.pellets.end(), [&](const PelletKind& k) {
+    return own_kernel(s, *k.shape) != own_kernel(s, *s.pellets[0].shape);
+  });
+}
 bool uses_field(const Scene& s, const Shape& shape) {
-  return s.kernel == "field" || shape.kind == ShapeClass::mesh;
+  return own_kernel(s, shape) == ShapeClass::mesh || s.container.kind == ContainerKind::mesh ||
+         mixed_kernels(s);
 }
 std::string kernel_of(const Scene& s, const Shape& shape) {
   return uses_field(s, shape) ? "field" : std::string(to_string(shape.kind));
@@ -111,23 +121,30 @@ double impact_speed(const Scene& s) {
   return speed;
 }
 
+double lightest(const Scene& s) {
+  double mass = 1e300;
+  for (const PelletKind& k : s.pellets) mass = std::min(mass, k.density * k.shape->volume);
+  return mass;
+}
+
+/// "The hardest impact of one pellet on a wall may overlap by so much", as the packer finds it.
+double stiffness_of(const Scene& s, const ContactLaw& law, double speed) {
+  double stiffness = law.stiffness;
+  for (const PelletKind& k : s.pellets)
+    if (!(law.stiffness > 0))
+      stiffness =
+          std::max(stiffness, k.density * k.shape->volume *
+                                  std::pow(speed / (law.allowed_overlap * k.shape->smallest_thickness), 2));
+  return stiffness;
+}
+
 Expected expect(const Scene& s) {
   Expected e;
   e.speed = impact_speed(s);
-  double thickness = 1e300, mass = 1e300, heaviest = 0;
-  for (const PelletKind& k : s.pellets) {
-    thickness = std::min(thickness, k.shape->smallest_thickness);
-    mass = std::min(mass, k.density * k.shape->volume);
-    heaviest = std::max(heaviest, k.density * k.shape->volume);
-  }
-  const ContactLaw& law = s.pellet_contact;
-  const double overlap = law.allowed_overlap * thickness, zeta = law.damping_ratio;
-  const double root = overlap > 0 ? e.speed * peak_overlap_factor(zeta) / overlap : 0;  // w0
-  e.stiffness = law.stiffness > 0 ? law.stiffness : heaviest / 2 * root * root;
-  const double fastest = std::sqrt(e.stiffness * 2 * kOffCentre / mass);
-  e.step = s.stepping.step > 0 ? s.stepping.step
-           : fastest > 0       ? contact_time_factor(zeta) / fastest / s.stepping.steps_per_contact
-                               : 0;
+  e.stiffness = stiffness_of(s, s.pellet_contact, std::max(e.speed, 0.1));
+  const double wall = stiffness_of(s, s.wall_contact, std::max(e.speed, 0.1));
+  const double contact = kPi * std::sqrt(lightest(s) / std::max(2 * e.stiffness, wall));
+  e.step = s.stepping.step > 0 ? s.stepping.step : contact / s.stepping.steps_per_contact;
   const double n = expected_pellets(s), g = std::max(s.gravity.norm(), 1e-3);
   const bool placed = s.feed.kind == FeedKind::placed;
   const double feeding = placed ? 0 : std::ceil(n / s.feed.per_layer - 1) * s.feed.interval;
@@ -137,8 +154,8 @@ Expected expect(const Scene& s) {
   e.steps = e.step > 0 ? e.simulated / e.step : 0;
   const double share = placed ? 1 : (feeding / 2 + fall + kSettling) / std::max(1e-9, e.simulated);
   const double present = n * std::min(1.0, share) * (s.stepping.sleep && n > 200 ? kAwake : 1);
-  const double contact = kContactCost[any_field(s) ? 2 : only_spheres(s) ? 0 : 1];
-  e.cpu = e.steps * present * (kBodyCost + kContactsPerPellet * contact);
+  const double cost = kContactCost[any_field(s) ? 2 : only_spheres(s) ? 0 : 1];
+  e.cpu = e.steps * present * (kBodyCost + kContactsPerPellet * cost);
   if (s.analysis.voxels && round_container(s))
     e.grid =
         std::pow(2 * s.container.radius / s.analysis.voxel, 2) * expected_height(s) / s.analysis.voxel / 8;

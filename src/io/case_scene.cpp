@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -172,10 +173,13 @@ void check_container(Problems& problems, const Scene& scene) {
   if (c.kind == ContainerKind::plane && feed.radius == 0)
     problems.add("feed.radius", "\"auto\" on a plane", "a length",
                  "a plane has no wall that could tell how wide to pour");
-  if (has_wall && c.radius > 0 && feed.radius > c.radius)
+  double turning = 0;  // radius that a pellet needs to enter in any rotation
+  for (const PelletKind& kind : scene.pellets) turning = std::max(turning, kind.shape->bounding_radius);
+  if (has_wall && c.radius > turning && feed.radius > (c.radius - turning) * (1 + 1e-9))
     problems.add("feed.radius", length_text(feed.radius),
-                 fmt::format("at most the container's inner radius, {}", length_text(c.radius)),
-                 "pellets would enter outside of the container");
+                 fmt::format("at most {}, so that every rotation of a pellet stays clear of the wall",
+                             length_text(c.radius - turning)),
+                 "pellets would enter inside the wall: leave it out for the widest circle");
   if (has_wall && feed.height && *feed.height > c.height)
     problems.add("feed.height", length_text(*feed.height),
                  fmt::format("at most the container's, {}", length_text(c.height)),

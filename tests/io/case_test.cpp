@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "contact/damping.hpp"
 #include "io/case_reader.hpp"
@@ -424,7 +425,7 @@ TEST(CaseRefuses, EntryInsideTheFloor) {
 }
 
 TEST(CaseRefuses, EntryOutsideTheContainer) {
-  expect_refused("count = 300", "count = 300\nradius = \"23 mm\"", {"feed.radius", "22.25 mm"});
+  expect_refused("count = 300", "count = 300\nradius = \"23 mm\"", {"feed.radius", "at most 19.82 mm"});
 }
 
 TEST(CaseRefuses, BedHigherThanTheRim) {
@@ -592,6 +593,47 @@ TEST(CasePlan, NamesKernelsAndWhatIsSkipped) {
 TEST(CasePlan, HardestImpactIsTheFreeFall) {
   // sqrt(2 * 9.80665 * 0.135) = 1.6272 m/s
   EXPECT_NE(plan(read(kCase)).find("hardest impact 1.627 m/s"), std::string::npos) << plan(read(kCase));
+}
+
+// --- the scene library -----------------------------------------------------------------------------------
+
+TEST(CaseLibrary, EveryCaseIsReadAndReadsBack) {
+  int cases = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(PACKBED_SOURCE_DIR "/cases")) {
+    if (entry.path().extension() != ".toml") continue;
+    SCOPED_TRACE(entry.path().string());
+    try {
+      const Scene scene = read_case(entry.path().string());
+      EXPECT_EQ(read_case_text(scene.case_text, "elsewhere.toml").case_text, scene.case_text);
+      EXPECT_NE(plan(scene).find("expected (estimates)"), std::string::npos);
+      ++cases;
+    } catch (const InputError& e) {
+      ADD_FAILURE() << e.what();
+    }
+  }
+  EXPECT_GE(cases, 9);
+}
+
+TEST(CaseLibrary, FemdemCornersAreThePapers) {
+  const std::string folder = PACKBED_SOURCE_DIR "/cases/a38_lc_corners/";
+  for (const auto& [name, friction, damping] :
+       {std::tuple("mu06_d04", 0.6, 0.4), std::tuple("mu06_d06", 0.6, 0.6), std::tuple("mu09_d04", 0.9, 0.4),
+        std::tuple("mu09_d06", 0.9, 0.6)}) {
+    const Scene s = read_case(folder + name + ".toml");
+    EXPECT_EQ(s.name, name);
+    EXPECT_EQ(s.pellet_contact.friction, friction);
+    EXPECT_EQ(s.pellet_contact.damping_ratio, damping);
+    EXPECT_EQ(s.wall_contact.friction, friction);
+    EXPECT_EQ(s.feed.count, 3038);
+    EXPECT_EQ(s.feed.per_layer, 49);
+    EXPECT_EQ(s.pellets[0].density, 2410);
+    EXPECT_EQ(s.pellets[0].shape->kind, ShapeClass::cylinder);
+    // the sphere of the volume of 3.42 x 3.46 mm is 3.930 mm across (the paper rounds its own to 3.90 mm)
+    EXPECT_NEAR(s.pellets[0].shape->equivalent_diameter(), std::cbrt(1.5 * 3.42 * 3.42 * 3.46) * 1e-3, 1e-7);
+                1.5e-5);  // the paper states 3.90 mm (3.93)
+                EXPECT_EQ(s.container.kind, ContainerKind::tube);
+                EXPECT_NEAR(s.container.radius, 22.25e-3, 1e-6);
+  }
 }
 
 // --- the nearest key -------------------------------------------------------------------------------------
