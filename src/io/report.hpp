@@ -20,8 +20,9 @@ struct ReferenceDensity {
 };
 
 /// The rows of a table like cases/reference/ct_beds.csv that belong to a pellet in a container, by the names
-/// that the case gives them ("a38", "lc"; state "poured" or "tapped"). Empty when nothing fits; throws
-/// InputError when the table cannot be read.
+/// that the case gives them ("a38", "lc"; state "poured" or "tapped"). `table` may be empty: then it is that
+/// very table, which is part of the program. Empty when nothing fits; throws InputError when the table cannot
+/// be read.
 std::vector<ReferenceDensity> find_references(const std::string& table, const std::string& pellet,
                                               const std::string& container, const std::string& state);
 

@@ -1,0 +1,12 @@
+# Turns files into the arrays of one C++ source: cmake -DOUT=... "-DFILES=name=path;name=path" -P embed.cmake
+set(source "// Made by src/io/report/embed.cmake; not to be edited.\n#include \"io/report/assets.hpp\"\n\nnamespace packbed::report {\nnamespace {\n")
+set(views "")
+foreach(entry ${FILES})
+  string(REGEX MATCH "^([A-Za-z]+)=(.*)$" entry "${entry}")
+  set(name ${CMAKE_MATCH_1})
+  file(READ "${CMAKE_MATCH_2}" bytes HEX)
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
+  string(APPEND source "const unsigned char ${name}Bytes[] = {${bytes}};\n")
+  string(APPEND views "std::string_view ${name}() { return {reinterpret_cast<const char*>(${name}Bytes), sizeof ${name}Bytes}; }\n")
+endforeach()
+file(WRITE "${OUT}" "${source}}  // namespace\n${views}}  // namespace packbed::report\n")
