@@ -36,7 +36,8 @@ struct CadOptions {
 struct CadModel {
   std::string path;
   CadFormat format = CadFormat::stl;
-  std::string unit;                // that the numbers of the file were read in
+  std::string detail;              // what the file turned out to be: "STL, binary, single precision"
+  std::string unit;                // that the numbers of the file were read in; mm for STEP
   TriangleMesh mesh;               // [m], as the file gives it: see check_mesh
   std::optional<TetMesh> tets;     // [m]
   int solids = 0;                  // that the CAD kernel counts (STEP); 0: the format does not say

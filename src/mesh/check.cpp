@@ -212,27 +212,21 @@ class Checker {
     const Pieces parts = pieces(mesh_);
     std::vector<TriangleMesh> piece;
     std::vector<double> volume;
-    std::vector<Box3> box;
     for (int p = 0; p < parts.count; ++p) {
       piece.push_back(piece_of(mesh_, parts, p));
-      const Vec3 first = piece.back().vertices[0];
-      box.push_back(bounding_box(piece.back()));
       volume.push_back(mass_properties(piece.back()).volume);
-      const double size = box.back().diagonal().norm();
-      if (std::abs(volume.back()) <= kFlatSolid * size * size * size) {
-        find(MeshProblem::no_volume, true, 1, first,
-             fmt::format("a closed piece without volume, {}", at(first)));
-        return false;
-      }
+      const double size = bounding_box(piece.back()).diagonal().norm();
+      if (std::abs(volume.back()) > kFlatSolid * size * size * size) continue;
+      const Vec3 first = piece.back().vertices[0];
+      find(MeshProblem::no_volume, true, 1, first,
+           fmt::format("a closed piece without volume, {}", at(first)));
+      return false;
     }
+    const std::vector<int> depth = depths(piece);
     std::vector<bool> wrong;
     for (std::size_t p = 0; p < piece.size(); ++p) {
-      const Vec3 point = piece[p].vertices[0];
-      int depth = 0;
-      for (std::size_t q = 0; q < piece.size(); ++q)
-        if (q != p && box[q].contains(point) && std::abs(winding_number(piece[q], point)) > 0.5) ++depth;
-      depth % 2 == 0 ? ++report_.solids : ++report_.cavities;
-      wrong.push_back((volume[p] > 0) != (depth % 2 == 0));
+      ++(depth[p] % 2 == 0 ? report_.solids : report_.cavities);
+      wrong.push_back((volume[p] > 0) != (depth[p] % 2 == 0));
     }
     return turn_wrong(parts, wrong);
   }

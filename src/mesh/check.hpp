@@ -58,7 +58,7 @@ struct MeshReport {
 MeshReport check_mesh(const TriangleMesh& mesh, const MeshCheckOptions& options = {});
 
 /// A wall thinner than this fraction of the body's size gets a (not fatal) finding.
-inline constexpr double kThinWall = 0.02;
+inline constexpr double kThinWall = 0.01;
 
 struct Thickness {
   double value = 0;           // [m]; 0: no wall was found

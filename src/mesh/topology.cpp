@@ -150,6 +150,33 @@ std::int64_t orient_alike(TriangleMesh& mesh) {
   return turned;
 }
 
+std::vector<int> depths(const std::vector<TriangleMesh>& pieces) {
+  std::vector<Box3> box;
+  for (const TriangleMesh& piece : pieces) box.push_back(bounding_box(piece));
+  std::vector<int> depth(pieces.size(), 0);
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const Vec3 point = pieces[p].vertices[0];
+    for (std::size_t q = 0; q < pieces.size(); ++q)
+      if (q != p && box[q].contains(point) && std::abs(winding_number(pieces[q], point)) > 0.5) ++depth[p];
+  }
+  return depth;
+}
+
+bool orient_outward(TriangleMesh& mesh) {
+  if (orient_alike(mesh) < 0) return false;
+  const Pieces parts = pieces(mesh);
+  std::vector<TriangleMesh> each;
+  for (int p = 0; p < parts.count; ++p) each.push_back(piece_of(mesh, parts, p));
+  const std::vector<int> depth = depths(each);
+  std::vector<bool> wrong;
+  for (std::size_t p = 0; p < each.size(); ++p)
+    wrong.push_back((mass_properties(each[p]).volume > 0) != (depth[p] % 2 == 0));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (wrong[static_cast<std::size_t>(parts.of_triangle[t])])
+      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  return true;
+}
+
 void turn_over(TriangleMesh& mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
 }

@@ -40,6 +40,12 @@ TriangleMesh piece_of(const TriangleMesh& mesh, const Pieces& pieces, int which)
 /// Turns triangles so that neighbours agree, each piece as its first triangle has it. Returns how many were
 /// turned, or -1 when a piece has but one side (as a Möbius strip) or an edge has more than two triangles.
 std::int64_t orient_alike(TriangleMesh& mesh);
+/// How many of the other closed pieces hold each piece: even for material, odd for a hole in it. The pieces
+/// must not cross.
+std::vector<int> depths(const std::vector<TriangleMesh>& pieces);
+/// Turns a closed mesh that crosses nothing so that it bounds a solid, whatever way its triangles ran:
+/// outermost pieces outward, holes in them inward. False when that is not possible (see orient_alike).
+bool orient_outward(TriangleMesh& mesh);
 /// Turns every triangle over.
 void turn_over(TriangleMesh& mesh);
 
