@@ -41,6 +41,25 @@ void set_limits(const CadRequest& request) {
 #endif
 }
 
+constexpr const char* kNoMemory = "a file that needs more memory than the reader may use";
+
+bool write_all(int to, const std::vector<std::byte>& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n = ::write(to, bytes.data() + done, bytes.size() - done);
+    if (n <= 0) return false;
+    done += static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+// Made while there is memory: gmsh lets bad_alloc escape from places where it ends the program.
+std::vector<std::byte> no_memory_answer;
+int answer_to = -1;
+
+[[noreturn]] void say_no_memory() {
+  ::_exit(write_all(answer_to, no_memory_answer) ? 0 : 3);
+}
+
 CadMessage read(const CadRequest& request) {
   if (request.format == "STEP") return read_step(request);
   CadMessage out = request.format == "MSH" ? read_msh(request) : read_triangles(request);
@@ -61,7 +80,7 @@ CadMessage read_or_say_why(const CadRequest& request) {
   try {
     return read(request);
   } catch (const std::bad_alloc&) {
-    failed.error = "a file that needs more memory than the reader may use";
+    failed.error = kNoMemory;
   } catch (const std::exception& e) {
     failed.error = e.what();
   } catch (const std::string& e) {  // gmsh
@@ -73,15 +92,6 @@ CadMessage read_or_say_why(const CadRequest& request) {
   return failed;
 }
 
-bool write_all(int to, const std::vector<std::byte>& bytes) {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t n = ::write(to, bytes.data() + done, bytes.size() - done);
-    if (n <= 0) return false;
-    done += static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
 }  // namespace
 }  // namespace packbed
 
@@ -89,11 +99,15 @@ int main(int argc, char** argv) {
   using namespace packbed;
   const auto request = CadRequest::from_arguments({argv + 1, static_cast<std::size_t>(argc - 1)});
   if (!request) return 2;
-  set_limits(*request);
   // OpenCASCADE talks on standard output
-  const int answer = ::dup(1);
+  answer_to = ::dup(1);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (answer < 0 || nowhere < 0 || ::dup2(nowhere, 1) < 0) return 3;
-  const bool written = write_all(answer, encode(read_or_say_why(*request)));
+  if (answer_to < 0 || nowhere < 0 || ::dup2(nowhere, 1) < 0) return 3;
+  CadMessage no_memory;
+  no_memory.error = kNoMemory;
+  no_memory_answer = encode(no_memory);
+  std::set_new_handler(say_no_memory);
+  set_limits(*request);
+  const bool written = write_all(answer_to, encode(read_or_say_why(*request)));
   ::_exit(written ? 0 : 3);  // the libraries' own endings may crash or hang
 }
