@@ -321,7 +321,7 @@ TEST(BadCad, TimeLimitIsKept) {
 TEST(BadCad, MemoryLimitIsKept) {
   CadOptions options;
   options.chord_error = 1e-5;  // millions of facets
-  options.limits.memory = std::uint64_t{200} << 20;
+  options.limits.memory = std::uint64_t{150} << 20;
   EXPECT_SAYS(refused([&] { read_cad(mesh_file("a38.step"), options); }), "more memory");
 }
 #endif
