@@ -134,8 +134,8 @@ TEST(Meshes, FilesFollowTheTable) {
 
 TEST(Meshes, SourcesGiveTheSameFilesAnew) {
   const TemporaryFolder folder;
-  const std::string command = fmt::format("ASAN_OPTIONS=detect_leaks=0 '{}' '{}' '{}' >/dev/null 2>&1", PACKBED_MESHES_PROGRAM,
-                                          mesh_file("bodies.toml"), folder.path());
+  const std::string command = fmt::format("ASAN_OPTIONS=detect_leaks=0 '{}' '{}' '{}' >/dev/null 2>&1",
+                                          PACKBED_MESHES_PROGRAM, mesh_file("bodies.toml"), folder.path());
   ASSERT_EQ(std::system(command.c_str()), 0);
   expect_all(folder.path());
   for (const char* name : {"a38.stl", "lc.stl", "taper.stl"})
