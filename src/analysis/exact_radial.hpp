@@ -16,14 +16,14 @@
 namespace packbed {
 
 struct RadialRule {
-  int angles = 16;  // nodes over the angle
+  int angles = 24;  // nodes over the angle
   int radii = 2;    // nodes over a ring's width
   int scan = 24;    // points that look for the shadow's ends
 };
 
 /// Volume of all pellets between each radius and the next (radii ascend, from 0 or more) and between two
-/// heights [m3] (radii - 1). What lies in two pellets counts twice. With the default rule the densities of a
-/// ring of a bed are converged to about 1e-6 (docs/analysis.md).
+/// heights [m3] (radii - 1). What lies in two pellets counts twice. The density of a ring of
+/// a full bed is converged to about 1e-4 with the default rule; docs/analysis.md has the table.
 std::vector<double> ring_volumes(const PackedBed& bed, const std::vector<double>& radii, double z_low,
                                  double z_high, const RadialRule& rule = {});
 

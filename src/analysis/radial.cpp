@@ -1,12 +1,19 @@
 #include "analysis/radial.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "analysis/bins.hpp"
 #include "lattice/count.hpp"
 
 namespace packbed {
+namespace {
+
+/// A column's cross-section is shared out to the rings in so many parts a side: with whole columns the rings
+/// of one voxel's width have ragged edges, which costs seven times the error at 0.1 mm for an A38.
+constexpr int kParts = 4;
+
+}  // namespace
 
 ColumnCounts count_columns(const VoxelGrid& grid, const VoxelGrid& space, const Layout& layout) {
   ColumnCounts counts{column_counts(grid, space, layout.slice_begin, layout.slice_end), {}};
@@ -22,16 +29,21 @@ ColumnCounts count_columns(const VoxelGrid& grid, const VoxelGrid& space, const 
 std::vector<double> radial_profile(const ColumnCounts& counts, const Layout& layout) {
   const GridFrame& frame = layout.frame;
   const std::size_t rings = layout.ring_edges.size() - 1;
+  const double width = layout.ring_edges[1];
   std::vector<std::int64_t> solid(rings, 0), space(rings, 0);
   std::size_t column = 0;
   for (int y = 0; y < frame.size[1]; ++y)
     for (int x = 0; x < frame.size[0]; ++x, ++column) {
       if (counts.space[column] == 0) continue;
-      const double from_wall = layout.radius - frame.centre(x, y, 0).head<2>().norm();
-      if (from_wall < 0) continue;
-      const std::size_t ring = bin_of(layout.ring_edges, from_wall);
-      solid[ring] += counts.solid[column];
-      space[ring] += counts.space[column];
+      for (int part = 0; part < kParts * kParts; ++part) {
+        const double px = frame.origin.x() + frame.pitch * (x + (part % kParts + 0.5) / kParts),
+                     py = frame.origin.y() + frame.pitch * (y + (part / kParts + 0.5) / kParts);
+        const double from_wall = layout.radius - std::sqrt(px * px + py * py);
+        if (from_wall < 0) continue;
+        const std::size_t ring = std::min(rings - 1, static_cast<std::size_t>(from_wall / width));
+        solid[ring] += counts.solid[column];
+        space[ring] += counts.space[column];
+      }
     }
   std::vector<double> density;
   for (std::size_t k = 0; k < rings; ++k)

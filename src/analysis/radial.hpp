@@ -10,8 +10,9 @@ struct ColumnCounts {
 };
 ColumnCounts count_columns(const VoxelGrid& grid, const VoxelGrid& space, const Layout& layout);
 
-/// Solid over inside voxels of all columns whose axis lies in a ring: a ring weighs by exactly the voxels
-/// counted in it. NaN where there are none.
+/// Solid over inside voxels of all columns in a ring; a column that two rings cut counts in both, by
+/// sixteenths of its cross-section. A ring weighs by exactly what was counted in it. NaN where there is
+/// nothing.
 std::vector<double> radial_profile(const ColumnCounts& counts, const Layout& layout);
 
 /// Solid over inside voxels of each column; NaN outside the container.
