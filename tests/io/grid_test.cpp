@@ -40,9 +40,9 @@ TEST(GridFile, ComesBackBitForBit) {
   const TemporaryFolder folder;
   for (const bool labels : {false, true}) {
     const VoxelGrid grid = random_grid(labels);
-    write_grid(folder.file("voxels.h5"), grid, {0.02225, 3.93e-3, "a test"});
-    EXPECT_TRUE(is_grid_file(folder.file("voxels.h5")));
-    for (const std::string& path : {folder.file("voxels.h5"), folder.path()}) {
+    write_grid((folder / "voxels.h5"), grid, {0.02225, 3.93e-3, "a test"});
+    EXPECT_TRUE(is_grid_file((folder / "voxels.h5")));
+    for (const std::string& path : {(folder / "voxels.h5"), folder.path()}) {
       const GridFile back = read_grid(path);
       EXPECT_EQ(back.grid.words, grid.words);
       EXPECT_EQ(back.grid.labels, grid.labels);
@@ -59,7 +59,7 @@ TEST(GridFile, ComesBackBitForBit) {
 
 TEST(GridFile, ACutOrChangedFileIsRefused) {
   const TemporaryFolder folder;
-  const std::string path = folder.file("voxels.h5");
+  const std::string path = (folder / "voxels.h5");
   write_grid(path, random_grid(false), {});
   const std::string whole = read_file(path);
   for (const std::size_t length : {std::size_t{0}, std::size_t{10}, whole.size() / 2, whole.size() - 1}) {
@@ -70,8 +70,8 @@ TEST(GridFile, ACutOrChangedFileIsRefused) {
   changed[whole.size() / 2] = static_cast<char>(changed[whole.size() / 2] ^ 1);
   write_atomically(path, changed);
   EXPECT_THROW(read_grid(path), InputError);
-  EXPECT_THROW(read_grid(folder.file("missing.h5")), InputError);
-  EXPECT_FALSE(is_grid_file(folder.file("missing.h5")));
+  EXPECT_THROW(read_grid((folder / "missing.h5")), InputError);
+  EXPECT_FALSE(is_grid_file((folder / "missing.h5")));
 }
 
 }  // namespace packbed

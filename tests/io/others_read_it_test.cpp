@@ -1,16 +1,21 @@
 // VTK (the library of ParaView) and h5py read what packbed writes, and see the same bed.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numeric>
 
+#include "bed/voxelise.hpp"
 #include "io/bed.hpp"
+#include "io/grid.hpp"
 #include "io/sample_bed.hpp"
 #include "io/temporary_folder.hpp"
 #include "io/trajectory.hpp"
 #include "io/vtu.hpp"
+#include "lattice/count.hpp"
 
 namespace packbed {
 namespace {
@@ -48,6 +53,8 @@ TEST(OtherPrograms, SeeTheSameBed) {
   write_vtu(folder / "bed.vtu", bed, {analysis.overlap->pellet});
   write_container_vtu(folder / "container.vtu", bed.container);
   write_point_vtu(folder / "points.vtu", bed.pellets);
+  const VoxelGrid voxels = voxelise(bed, frame_for(bed, 0.5e-3), true);
+  write_grid(folder / "voxels.h5", voxels, {});
   TrajectoryWriter trajectory({folder.path()}, bed.shapes, 40);
   for (const double t : {0.0, 0.1, 0.2}) trajectory.add({t, &bed.pellets, {}, 0});
   trajectory.finish();
@@ -58,6 +65,14 @@ TEST(OtherPrograms, SeeTheSameBed) {
   ASSERT_EQ(seen.exit_code, 0) << seen.output;
   EXPECT_EQ(seen.values["arrays"], "angle_deg,height_m,overlap,pellet,shape");
   EXPECT_EQ(seen.number("pellets"), 40);
+  const auto& size = voxels.frame.size;
+  EXPECT_EQ(seen.values["voxels"], fmt::format("{} {} {}", size[0], size[1], size[2]));
+  EXPECT_EQ(seen.number("voxel_pitch"), 0.5e-3);
+  EXPECT_NEAR(seen.number("first_voxel_z"), 0.25e-3, 1e-12);
+  const auto slices = slice_counts(voxels);
+  const auto solid = std::accumulate(slices.begin(), slices.end(), std::int64_t{0});
+  EXPECT_EQ(seen.number("solid_voxels"), static_cast<double>(solid));
+  EXPECT_EQ(seen.number("labelled_voxels"), static_cast<double>(solid));
   // the prisms that are drawn hold the cylinders' volume; single precision of the points moves it by 1e-5
   EXPECT_NEAR(seen.number("volume") / (40 * bed.shapes[0]->volume), 1, 1e-4);
   EXPECT_NEAR(seen.number("largest_overlap"),
