@@ -117,18 +117,17 @@ TEST(CaseRefuses, PelletLargerThanTheContainer) {
 }
 
 TEST(CaseRefuses, PelletThatDoesNotEnterInEveryRotation) {
-  const double across = std::hypot(3.42, 3.46);  // 4.865 mm
-  ASSERT_GT(across, 4.8);
-  expect_refused("44.5 mm", "4.8 mm", {"pellet", "4.865 mm across", "every rotation"});
+  // corner to corner it is sqrt(3.42^2 + 3.46^2) = 4.865 mm, and a little more where its facets stand out
+  expect_refused("44.5 mm", "4.8 mm", {"pellet", "4.86", "mm across", "every rotation"});
   EXPECT_EQ(refusal(replaced(kCase, "44.5 mm", "4.9 mm")), "");
 }
 
 TEST(CaseRefuses, EntryInsideTheFloor) {
-  expect_refused("135 mm", "2 mm", {"feed.drop_height", "2.432 mm", "inside the floor"});
+  expect_refused("135 mm", "2 mm", {"feed.drop_height", "at least 2.43", "inside the floor"});
 }
 
 TEST(CaseRefuses, EntryOutsideTheContainer) {
-  expect_refused("count = 300", "count = 300\nradius = \"23 mm\"", {"feed.radius", "at most 19.82 mm"});
+  expect_refused("count = 300", "count = 300\nradius = \"23 mm\"", {"feed.radius", "at most 19.8"});
 }
 
 TEST(CaseRefuses, BedHigherThanTheRim) {
