@@ -101,7 +101,7 @@ TEST(References, ABadTableIsRefused) {
 }
 
 /// Draws the page in a browser; every part has to be there and nothing may go wrong.
-TEST(Report, ABrowserDrawsEveryPart) {
+TEST(LongReport, ABrowserDrawsEveryPart) {
   const TemporaryFolder folder;
   written_report(folder, sample_bed(300));
   const std::string command = PACKBED_SOURCE_DIR "/tests/io/report_in_browser " + (folder / "report.html");

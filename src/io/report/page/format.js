@@ -6,7 +6,8 @@ export const dash = '\u2013';
 
 export function number(value, digits = 4) {
   if (value === null || value === undefined || !Number.isFinite(value)) return dash;
-  return value.toFixed(digits).replace('-', MINUS);
+  const text = value.toFixed(digits);
+  return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', MINUS);
 }
 
 /** About `digits` significant digits, without needless zeros or exponents. */

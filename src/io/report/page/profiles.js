@@ -63,7 +63,7 @@ function highest(columns) {
   return Math.min(1.05, Math.max(0.7, 1.06 * top));
 }
 
-function chart(profile, xLabel, references, section) {
+function chart(profile, [xLabel, shortLabel], references, section) {
   const holder = element('div', { class: 'plot' });
   let plot = null;
   drawn(() => {
@@ -74,7 +74,7 @@ function chart(profile, xLabel, references, section) {
     series[0] = { label: xLabel.split(' ')[0], value: (_, v) => (v === null || v === undefined ? '–' : `${number(v, 2)} dp`) };
     plot = new uPlot({ width, height: HEIGHT, series, cursor: { points: { size: 7 } },
       scales: { x: { time: false }, y: { range: () => [0, highest(columns)] } },
-      axes: [axis(xLabel), axis('packing density')], hooks: { drawClear: [bands(references, section)] } }, columns, holder);
+      axes: [axis(width < 420 ? shortLabel : xLabel), axis('packing density')], hooks: { drawClear: [bands(references, section)] } }, columns, holder);
   });
   return holder;
 }
@@ -92,11 +92,11 @@ export function profiles(data) {
   const parts = [];
   if (data.axial.x_dp.length > 0) {
     parts.push(figure('Axial profile', `Grey: the section that the mean is taken over. ${referenceNote(references)}`,
-      chart(data.axial, `height above the floor in pellet diameters, ${unit}`, references, section)));
+      chart(data.axial, [`height above the floor in pellet diameters, ${unit}`, 'height / dp'], references, section)));
   }
   if (data.radial.x_dp.length > 0) {
     parts.push(figure('Radial profile', 'Pellets line up along the wall: the density swings, and the swing dies out inwards.',
-      chart(data.radial, `distance from the wall in pellet diameters, ${unit}`, references, null)));
+      chart(data.radial, [`distance from the wall in pellet diameters, ${unit}`, 'distance from the wall / dp'], references, null)));
   }
   return parts.length > 0 ? element('div', { class: 'columns two' }, parts) : null;
 }

@@ -27,8 +27,8 @@ export function energy({ run }) {
     LEDGER.map(([key, text, ink]) => element('span', { style: `width:${100 * share(key)}%;background:var(${ink})`, title: `${text}: ${percent(share(key), 3)}` })));
   const rows = LEDGER.map(([key, text, ink]) => row([element('span', { class: 'swatch', style: `background:var(${ink})` }), text],
     value(`${short(e[key])} J`), value(percent(share(key), 3))));
-  return card('Energy ledger', '', stack, element('table', {}, element('tbody', {},
-    row('put in', value(`${short(e.input)} J`), value('')), ...rows, row('not accounted for', value(''), value(percent(e.ledger_error, 3))))));
+  return card('Energy ledger', '', stack, element('div', { class: 'scroll' }, element('table', {}, element('tbody', {},
+    row('put in', value(`${short(e.input)} J`), value('')), ...rows, row('not accounted for', value(''), value(percent(e.ledger_error, 3)))))));
 }
 
 export function walls({ run }) {

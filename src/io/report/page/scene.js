@@ -173,11 +173,15 @@ export function makeScene(canvas, data) {
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
   }
+  let view = 'corner';
+  let moved = false; // by the reader: then a new size of the window leaves the view alone
   function look(name) {
+    view = name;
+    moved = false;
     const direction = new Vector3().fromArray(DIRECTIONS[name]).normalize();
-    const tall = name === 'top' ? Math.hypot(size[0], size[1]) : Math.hypot(size[2], 0.4 * Math.hypot(size[0], size[1]));
+    const tall = name === 'top' ? Math.hypot(size[0], size[1]) : Math.hypot(size[2], 0.6 * Math.hypot(size[0], size[1]));
     const wide = Math.hypot(size[0], size[1]) / camera.aspect;
-    const distance = 0.56 * Math.max(tall, wide) / Math.tan(camera.fov * Math.PI / 360) + 0.3 * size[0];
+    const distance = 0.57 * Math.max(tall, wide) / Math.tan(camera.fov * Math.PI / 360) + 0.3 * size[0];
     controls.target.copy(centre);
     camera.position.copy(centre).addScaledVector(direction, distance);
     camera.near = distance / 100;
@@ -186,7 +190,8 @@ export function makeScene(canvas, data) {
     controls.update();
     ask();
   }
-  let placed = false;
+  controls.addEventListener('start', () => { moved = true; });
+  canvas.addEventListener('keydown', () => { moved = true; });
   return {
     look,
     draw() {
@@ -194,8 +199,7 @@ export function makeScene(canvas, data) {
       scene.background = new Color().setStyle(colour('scene'));
       around.tint();
       renderer.toneMappingExposure = isDark() ? 0.95 : 1;
-      if (!placed) look('corner');
-      placed = true;
+      if (!moved) look(view);
       render();
     },
     colours(values) { groups.forEach((group) => group.paint(values)); ask(); },
