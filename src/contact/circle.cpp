@@ -1,0 +1,159 @@
+#include "contact/circle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/trig.hpp"
+
+namespace packbed {
+namespace {
+
+constexpr int kSamples = 16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
+
+struct SampleTable {
+  std::array<double, kSamples> c, s;
+  SampleTable() {
+    for (int i = 0; i < kSamples; ++i)
+      sincos_poly(2.0 * kPi * i / kSamples, s[static_cast<std::size_t>(i)], c[static_cast<std::size_t>(i)]);
+  }
+};
+const SampleTable kTable;
+
+/// Root of f between a point where f > 0 and one where f <= 0: Newton, held inside the bracket by bisection.
+/// Newton doubles the digits: after a step of 1e-5 the error is some 1e-10, and d^8 vanishes there anyway.
+double root_between(const TrigQuadratic& f, double inside, double outside, double guess) {
+  double x = guess;
+  for (int i = 0; i < 60; ++i) {
+    double s, c;
+    sincos_poly(x, s, c);
+    const double value = f.at(c, s);
+    (value > 0 ? inside : outside) = x;
+    double next = x - value / f.slope(c, s);
+    const double low = std::min(inside, outside), high = std::max(inside, outside);
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    if (std::abs(next - x) <= 1e-5 * std::abs(x - guess) + 1e-8 || std::abs(value) <= 0) return next;
+    x = next;
+  }
+  return x;
+}
+
+/// Moves a peak from the best sample to the maximum of f; false when f stays below `floor` there.
+bool climb(const TrigQuadratic& f, Peak& peak, double floor) {
+  const double low = peak.phi - 2.0 * kPi / kSamples, high = peak.phi + 2.0 * kPi / kSamples;
+  for (int i = 0; i < 12; ++i) {
+    sincos_poly(peak.phi, peak.sine, peak.cosine);
+    peak.value = f.at(peak.cosine, peak.sine);
+    peak.curvature = f.curvature(peak.cosine, peak.sine);
+    if (!(peak.curvature < 0)) break;
+    const double step = -f.slope(peak.cosine, peak.sine) / peak.curvature;
+    if (std::abs(step) < 1e-6) break;  // the value is then exact to 1e-12
+    peak.phi = std::clamp(peak.phi + step, low, high);
+  }
+  return peak.value > floor;
+}
+
+bool inside(const PeakList& peaks, double x) {
+  for (int i = 0; i < peaks.size; ++i) {
+    const Peak& p = peaks.peak[static_cast<std::size_t>(i)];
+    if ((x > p.low && x < p.high) || (x - 2.0 * kPi > p.low && x - 2.0 * kPi < p.high)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void span_plane(const Vec3& axis, const Vec3& wish, Vec3& e1, Vec3& e2) {
+  e1 = wish - wish.dot(axis) * axis;
+  double length2 = e1.squaredNorm();
+  if (length2 < 1e-24) {
+    const Vec3 other = std::abs(axis.x()) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    e1 = other - other.dot(axis) * axis;
+    length2 = e1.squaredNorm();
+  }
+  e1 /= std::sqrt(length2);
+  e2 = axis.cross(e1);
+}
+
+PeakList positive_peaks(const TrigQuadratic& f, double floor) {
+  PeakList peaks;
+  std::array<double, kSamples> value;
+  for (std::size_t i = 0; i < kSamples; ++i) value[i] = f.at(kTable.c[i], kTable.s[i]);
+  const auto at = [&](int i) { return value[static_cast<std::size_t>(i + kSamples) % kSamples]; };
+  const auto [lowest, highest] = std::minmax_element(value.begin(), value.end());
+  constexpr double kStep = 2.0 * kPi / kSamples;
+  if (*lowest > 0) {
+    Peak peak;
+    peak.phi = kStep * static_cast<double>(highest - value.begin());
+    sincos_poly(peak.phi, peak.sine, peak.cosine);
+    peak.value = *highest;
+    peak.full = true;
+    if (peak.value > floor) peaks.peak[static_cast<std::size_t>(peaks.size++)] = peak;
+    return peaks;
+  }
+  for (int i = 0; i < kSamples && peaks.size < 4; ++i) {
+    const double before = at(i - 1), here = at(i), after = at(i + 1);
+    if (here < before || here <= after) continue;  // only at a maximum of the samples
+    Peak peak;
+    peak.phi = i * kStep;
+    const double bend = before - 2.0 * here + after;
+    if (bend < 0) {  // parabola through three samples: where to start, and whether zero can be reached at all
+      const double shift = 0.5 * (before - after) / bend;
+      if (here - 0.25 * (before - after) * shift < floor + 0.1 * bend) continue;
+      peak.phi += shift * kStep;
+    }
+    if (!climb(f, peak, floor)) continue;
+    int left = i, right = i;  // walk out to the first sample below zero on either side
+    while (at(left) > 0) --left;
+    while (at(right) > 0) ++right;
+    if (left == i) left = peak.phi > i * kStep ? i : i - 1;
+    if (right == i) right = peak.phi < i * kStep ? i : i + 1;
+    peak.low = left * kStep;
+    peak.high = right * kStep;
+    if (!inside(peaks, peak.phi)) peaks.peak[static_cast<std::size_t>(peaks.size++)] = peak;
+  }
+  return peaks;
+}
+
+Arc arc_round(const TrigQuadratic& f, const Peak& peak, int name) {
+  if (peak.full) return {0, 2.0 * kPi, -1, -1};
+  const double top = peak.phi, reach = std::sqrt(2.0 * peak.value / std::max(1e-300, -peak.curvature));
+  const double from = top - reach > peak.low ? top - reach : 0.5 * (peak.low + top);
+  const double to = top + reach < peak.high ? top + reach : 0.5 * (peak.high + top);
+  return {root_between(f, top, peak.low, from), root_between(f, top, peak.high, to), name, name};
+}
+
+ArcList positive_arcs(const TrigQuadratic& f, int name) {
+  const PeakList peaks = positive_peaks(f);
+  ArcList arcs;
+  for (int i = 0; i < peaks.size; ++i) arcs.add(arc_round(f, peaks.peak[static_cast<std::size_t>(i)], name));
+  return arcs;
+}
+
+ArcList intersection(const ArcList& a, const ArcList& b) {
+  ArcList both;
+  for (int i = 0; i < a.size; ++i)
+    for (int j = 0; j < b.size; ++j) {
+      const Arc &p = a.arc[static_cast<std::size_t>(i)], &q = b.arc[static_cast<std::size_t>(j)];
+      if (p.from_root < 0) {
+        both.add(q);
+        continue;
+      }
+      if (q.from_root < 0) {
+        both.add(p);
+        continue;
+      }
+      for (int turn = -1; turn <= 1; ++turn) {
+        const double from = q.from + 2.0 * kPi * turn, to = q.to + 2.0 * kPi * turn;
+        Arc arc;
+        arc.from = std::max(p.from, from);
+        arc.to = std::min(p.to, to);
+        if (!(arc.from < arc.to)) continue;
+        arc.from_root = p.from > from ? p.from_root : q.from_root;
+        arc.to_root = p.to < to ? p.to_root : q.to_root;
+        both.add(arc);
+      }
+    }
+  return both;
+}
+
+}  // namespace packbed

@@ -1,0 +1,363 @@
+#include "contact/cylinder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contact/circle.hpp"
+#include "math/simd.hpp"
+#include "math/trig.hpp"
+
+namespace packbed {
+namespace {
+
+// Radius of the ring inside each cap, fraction of the cap's. Between 0.5 and 0.8 the stiffness of a coaxial stack changes by 10 %.
+constexpr double kRing = 0.6;
+// Length that the touch of two crossed sides counts for, fraction of the reference length: with it, it is about as stiff as an edge.
+constexpr double kSideLength = 0.05;
+// Sine of the angle between axes under which the crossing fades out and the rims alone carry the touch of two sides.
+constexpr double kParallel = 0.03;
+
+// An arc whose depth stays under this fraction of the greatest depth adds less than its 8th power, 1e-8, and is left out.
+constexpr double kNegligible = 0.1;
+
+enum Root { kSide = 0, kCap = 1 };
+
+using Nodes = std::array<double, kArcNodes>;
+
+double total(const Nodes& v) {
+  static_assert(kArcNodes == 12);
+  const double a = (v[0] + v[4]) + v[8], b = (v[1] + v[5]) + v[9], c = (v[2] + v[6]) + v[10], d = (v[3] + v[7]) + v[11];
+  return (a + b) + (c + d);
+}
+
+/// A circle in the frame of a cylinder: everything is a trigonometric polynomial of the angle phi.
+struct CircleInRod {
+  double w2, p, q;    // |x - centre of the rod|^2 = w2 + p cos + q sin
+  double z0, z1, z2;  // height over the rod's middle = z0 + z1 cos + z2 sin
+  double radius, half_height;
+
+  TrigQuadratic side() const {  // R^2 - rho^2
+    return {radius * radius - w2 + z0 * z0 + z2 * z2, -p + 2 * z0 * z1, -q + 2 * z0 * z2, z1 * z1 - z2 * z2,
+            2 * z1 * z2};
+  }
+  TrigQuadratic cap() const {  // h^2 - z^2
+    return {half_height * half_height - z0 * z0 - z2 * z2, -2 * z0 * z1, -2 * z0 * z2, z2 * z2 - z1 * z1,
+            -2 * z1 * z2};
+  }
+};
+
+/// Sums over the nodes of one arc, with rate_i = w_i 8 d_i^7.
+struct ArcSums {
+  double power;                      // w d^8
+  double shift, spread;              // rate d', rate d' xi: what moving or spreading the nodes does
+  double side, side_c, side_s;       // rate (d d / d a) / R, and its moments with cos and sin
+  double axial, axial_c, axial_s;    // the share along the axis
+  double rate, rate_c, rate_s;
+  double deepest;
+};
+
+/// All nodes of one arc of angles middle +- half. A full turn takes evenly spaced nodes (spectral for periodic functions).
+PACKBED_WIDE void sum_arc(const CircleInRod& g, double middle, double half, bool full, ArcSums& out) {
+  Nodes power, shift, spread, side, side_c, side_s, axial, axial_c, axial_s, rate, rate_c, rate_s, deep;
+  const double per_radius = 1.0 / g.radius, per_height = 1.0 / g.half_height;
+  for (std::size_t i = 0; i < kArcNodes; ++i) {
+    const double xi = full ? kEvenNode[i] : kGaussNode[i], w = full ? 2.0 / kArcNodes : kGaussWeight[i];
+    double s, c;
+    sincos_poly(middle + half * xi, s, c);
+    const double z = g.z0 + g.z1 * c + g.z2 * s, z_dot = g.z2 * c - g.z1 * s;
+    const double y2 = g.w2 + g.p * c + g.q * s, y2_dot = g.q * c - g.p * s;
+    const double a = std::max(0.0, (g.radius * g.radius - y2 + z * z) * 0.5 * per_radius);
+    const double b = std::max(0.0, (g.half_height * g.half_height - z * z) * 0.5 * per_height);
+    const double norm = std::sqrt(a * a + b * b) + 1e-300, d = std::max(0.0, a + b - norm);
+    const double slope_a = 1.0 - a / norm, slope_b = 1.0 - b / norm;
+    const double d2 = d * d, d4 = d2 * d2, r = 8.0 * w * d4 * d2 * d;
+    const double d_dot = slope_a * (z * z_dot - 0.5 * y2_dot) * per_radius - slope_b * z * z_dot * per_height;
+    power[i] = w * d4 * d4;
+    shift[i] = r * d_dot;
+    spread[i] = r * d_dot * xi;
+    side[i] = r * slope_a * per_radius;
+    side_c[i] = side[i] * c;
+    side_s[i] = side[i] * s;
+    axial[i] = (side[i] - r * slope_b * per_height) * z;
+    axial_c[i] = axial[i] * c;
+    axial_s[i] = axial[i] * s;
+    rate[i] = r;
+    rate_c[i] = r * c;
+    rate_s[i] = r * s;
+    deep[i] = std::min(a, b);
+  }
+  out = {total(power),   total(shift), total(spread), total(side),   total(side_c), total(side_s), total(axial),
+         total(axial_c), total(axial_s), total(rate), total(rate_c), total(rate_s), 0.0};
+  for (double d : deep) out.deepest = std::max(out.deepest, d);
+}
+
+/// The end of an arc lies where `side` or `cap` of the rod vanishes; it moves with the bodies, and so do the nodes.
+void add_arc_end(TouchSum& sum, const Circle& circle, double phi, int root, double rate, const Rod& rod, double sign) {
+  double s, c;
+  sincos_poly(phi, s, c);
+  const Vec3 x = circle.point(c, s), y = x - rod.centre, tangent = circle.radius * (c * circle.e2 - s * circle.e1);
+  const double z = y.dot(rod.axis);
+  const Vec3 slope = root == kSide ? Vec3(-(y - z * rod.axis) / rod.radius) : Vec3(-z / rod.half_height * rod.axis);
+  const double turn = slope.dot(tangent);
+  if (std::abs(turn) < 1e-12 * circle.radius) return;  // a touch that has only just begun: nothing to carry
+  sum.add_end(x, -rate / turn, sign * slope);
+}
+
+/// A circle that dips into a rod, with the places where it is deepest in the side.
+struct Dip {
+  Circle circle;
+  CircleInRod g;
+  PeakList peaks;
+  const Rod* rod = nullptr;
+  double sign = 0;       // +1 when the circle belongs to a, -1 when to b
+  bool meets_cap = false;
+};
+
+struct Dips {
+  std::array<Dip, 8> dip;
+  int size = 0;
+  double deepest = 0;    // of the depths found at the peaks: a lower bound of the greatest depth
+};
+
+double depth_of(double side, double cap) {
+  return side > 0 && cap > 0 ? side + cap - std::sqrt(side * side + cap * cap) : 0.0;
+}
+
+void find_dip(Dips& dips, const Vec3& centre, const Vec3& axis, double radius, const Rod& rod, double sign) {
+  const Vec3 w = centre - rod.centre;
+  const double z0 = w.dot(rod.axis), cosine = axis.dot(rod.axis);
+  const double reach = radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  if (std::abs(z0) - reach >= rod.half_height) return;
+  const Vec3 rho = w - z0 * rod.axis;
+  const double rho2 = rho.squaredNorm(), across = rho.dot(axis);
+  // extent of the circle towards the rod's axis: radius sqrt(1 - (m.axis)^2), m = rho / |rho|
+  const double inward = radius * std::sqrt(std::max(0.0, rho2 - across * across));
+  if (rho2 - inward >= rod.radius * std::sqrt(rho2)) return;
+
+  Dip& dip = dips.dip[static_cast<std::size_t>(dips.size)];
+  dip.circle = {centre, {}, {}, radius};
+  span_plane(axis, rod.axis, dip.circle.e1, dip.circle.e2);
+  const Vec3 &e1 = dip.circle.e1, &e2 = dip.circle.e2;
+  dip.g = {w.squaredNorm() + radius * radius, 2 * radius * w.dot(e1), 2 * radius * w.dot(e2), z0,
+           radius * rod.axis.dot(e1), radius * rod.axis.dot(e2), rod.radius, rod.half_height};
+  const double scale = 2.0 * rod.radius;
+  dip.peaks = positive_peaks(dip.g.side(), kNegligible * dips.deepest * scale);
+  if (dip.peaks.size == 0) return;
+  dip.rod = &rod;
+  dip.sign = sign;
+  dip.meets_cap = std::abs(z0) + reach > rod.half_height;
+  for (int i = 0; i < dip.peaks.size; ++i) {
+    const Peak& peak = dip.peaks.peak[static_cast<std::size_t>(i)];
+    const double z = dip.g.z0 + dip.g.z1 * peak.cosine + dip.g.z2 * peak.sine;
+    const double cap = (rod.half_height * rod.half_height - z * z) / (2.0 * rod.half_height);
+    dips.deepest = std::max(dips.deepest, depth_of(peak.value / scale, cap));
+  }
+  ++dips.size;
+}
+
+/// Both rims of `rod`, and the rings inside its caps, in `other`.
+void find_dips(Dips& dips, const Rod& rod, const Rod& other, double sign) {
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 centre = rod.centre + side * rod.half_height * rod.axis;
+    find_dip(dips, centre, rod.axis, rod.radius, other, sign);
+    find_dip(dips, centre, rod.axis, kRing * rod.radius, other, sign);
+  }
+}
+
+void add_arc(TouchSum& sum, const Dip& dip, const Arc& arc) {
+  const Circle& circle = dip.circle;
+  const Rod& rod = *dip.rod;
+  const double radius = circle.radius, sign = dip.sign;
+  const double middle = 0.5 * (arc.from + arc.to), half = 0.5 * (arc.to - arc.from), length = radius * half;
+  ArcSums t;
+  sum_arc(dip.g, middle, half, arc.from_root < 0, t);
+  if (!(t.power > 0)) return;
+  // sum of x (relative to the origin of the sum) with weights k: k0 centre + radius (kc e1 + ks e2)
+  const auto moment = [&](double k0, double kc, double ks) {
+    return Vec3(length * (k0 * circle.centre + radius * (kc * circle.e1 + ks * circle.e2)));
+  };
+  const Vec3 side = moment(t.side, t.side_c, t.side_s), axial = moment(t.axial, t.axial_c, t.axial_s);
+  const Vec3 force = length * (t.side * rod.centre + t.axial * rod.axis) - side;  // sum of rate * slope
+  const Vec3 torque = side.cross(rod.centre) + axial.cross(rod.axis);             // sum of x cross that
+  const Vec3 pressure = moment(t.rate, t.rate_c, t.rate_s);
+  const double second = 2.0 * pressure.dot(circle.centre) + length * t.rate * (radius * radius - circle.centre.squaredNorm());
+  sum.add_sums(length * t.power, sign * force, sign * torque, length * t.rate, pressure, second, t.deepest);
+  if (arc.from_root < 0) return;
+  const double from_rate = 0.5 * (length * (t.shift - t.spread) - radius * t.power);
+  const double to_rate = 0.5 * (length * (t.shift + t.spread) + radius * t.power);
+  add_arc_end(sum, circle, arc.from, arc.from_root, from_rate, rod, sign);
+  add_arc_end(sum, circle, arc.to, arc.to_root, to_rate, rod, sign);
+}
+
+void add_dip(TouchSum& sum, const Dip& dip, double deepest) {
+  const TrigQuadratic side = dip.g.side();
+  const double floor = kNegligible * deepest * 2.0 * dip.g.radius;
+  ArcList arcs;
+  for (int i = 0; i < dip.peaks.size; ++i) {
+    const Peak& peak = dip.peaks.peak[static_cast<std::size_t>(i)];
+    if (peak.value > floor) arcs.add(arc_round(side, peak, kSide));
+  }
+  if (arcs.size > 0 && dip.meets_cap) arcs = intersection(arcs, positive_arcs(dip.g.cap(), kCap));
+  for (int i = 0; i < arcs.size; ++i) add_arc(sum, dip, arcs.arc[static_cast<std::size_t>(i)]);
+}
+
+/// The sides of two crossed cylinders, at the common perpendicular of their axes. Closed form; s and t are its feet on the axes.
+void add_crossing(TouchSum& sum, const Rod& a, const Rod& b, double reference) {
+  const Vec3 w = b.centre - a.centre;
+  const double c = a.axis.dot(b.axis), sine2 = 1.0 - c * c;
+  if (sine2 < 1e-12) return;
+  const double wa = w.dot(a.axis), wb = w.dot(b.axis);
+  const double s = (wa - c * wb) / sine2, t = (c * wa - wb) / sine2;
+  if (std::abs(s) >= a.half_height || std::abs(t) >= b.half_height) return;
+  const Vec3 across = w + t * b.axis - s * a.axis;
+  const double radii = a.radius + b.radius;
+  const double lateral = (radii * radii - across.squaredNorm()) / (2.0 * radii);
+  if (!(lateral > 0)) return;
+  // depth: R-function of the overlap of the sides with the distances from the four ends
+  const double end_a = (a.half_height * a.half_height - s * s) / (2.0 * a.half_height);
+  const double end_b = (b.half_height * b.half_height - t * t) / (2.0 * b.half_height);
+  const double ends = std::sqrt(end_a * end_a + end_b * end_b), end = end_a + end_b - ends;
+  const double norm = std::sqrt(lateral * lateral + end * end), d = lateral + end - norm;
+  const double fade = sine2 / (sine2 + kParallel * kParallel), length = kSideLength * reference;
+  const double rate = length * fade * depth_power_slope(d);
+  const double by_lateral = rate * (1.0 - lateral / norm), by_end = rate * (1.0 - end / norm);
+  const double by_s = -by_end * (1.0 - end_a / ends) * s / a.half_height;
+  const double by_t = -by_end * (1.0 - end_b / ends) * t / b.half_height;
+  const double by_sine2 = length * depth_power(d) * kParallel * kParallel /
+                          ((sine2 + kParallel * kParallel) * (sine2 + kParallel * kParallel));
+  // derivatives by w = b - a, and by the axes; s and t follow from across.a = across.b = 0
+  const double p = (by_s + by_t * c) / sine2, q = -(by_s * c + by_t) / sine2;
+  const double pull = -by_lateral / radii;
+  const Vec3 by_w = pull * across + p * a.axis + q * b.axis;
+  const Vec3 by_a = -s * pull * across + p * (w + t * b.axis) - q * s * b.axis - 2.0 * c * by_sine2 * b.axis;
+  const Vec3 torque = -a.axis.cross(by_a) + a.centre.cross(by_w);
+  const Vec3 x = a.centre + s * a.axis + (a.radius / radii) * across;
+  sum.add_sums(length * fade * depth_power(d), -by_w, -torque, rate, rate * x, rate * x.squaredNorm(),
+               std::min(lateral, end));
+}
+
+/// One circle against a field that is a quadratic of the position along it: floor and tube.
+template <class Field>
+void add_circle_outside(TouchSum& sum, const Circle& circle, const TrigQuadratic& depth, const Field& slope_at) {
+  const ArcList arcs = positive_arcs(depth, 0);
+  for (int i = 0; i < arcs.size; ++i) {
+    const Arc& arc = arcs.arc[static_cast<std::size_t>(i)];
+    const bool full = arc.from_root < 0;
+    const double middle = 0.5 * (arc.from + arc.to), half = 0.5 * (arc.to - arc.from);
+    double power = 0, shift = 0, spread = 0;
+    for (std::size_t k = 0; k < kArcNodes; ++k) {
+      const double xi = full ? kEvenNode[k] : kGaussNode[k], w = full ? 2.0 / kArcNodes : kGaussWeight[k];
+      double s, c;
+      sincos_poly(middle + half * xi, s, c);
+      const double d = depth.at(c, s);
+      if (!(d > 0)) continue;
+      const Vec3 x = circle.point(c, s);
+      sum.add(x, d, circle.radius * half * w, slope_at(x));
+      const double along = circle.radius * half * w * depth_power_slope(d) * depth.slope(c, s);
+      power += circle.radius * w * depth_power(d);
+      shift += along;
+      spread += along * xi;
+    }
+    if (full) continue;
+    for (const double end : {-1.0, 1.0}) {
+      double s, c;
+      sincos_poly(end < 0 ? arc.from : arc.to, s, c);
+      const double turn = depth.slope(c, s);
+      if (std::abs(turn) < 1e-12 * circle.radius) continue;
+      const Vec3 x = circle.point(c, s);
+      sum.add_end(x, -0.5 * (shift + end * spread + end * power) / turn, slope_at(x));
+    }
+  }
+}
+
+double extent(const Rod& rod, const Vec3& direction) {  // half width along a unit vector
+  const double along = rod.axis.dot(direction);
+  return rod.half_height * std::abs(along) + rod.radius * std::sqrt(std::max(0.0, 1.0 - along * along));
+}
+
+}  // namespace
+
+double depth_in_cylinder(const Vec3& x, const Vec3& axis, double radius, double half_height, Vec3& slope) {
+  const double z = x.dot(axis);
+  const Vec3 rho = x - z * axis;
+  const double a = (radius * radius - rho.squaredNorm()) / (2.0 * radius);
+  const double b = (half_height * half_height - z * z) / (2.0 * half_height);
+  slope.setZero();
+  if (!(a > 0 && b > 0)) return 0;
+  const double norm = std::sqrt(a * a + b * b);
+  slope = -(1.0 - a / norm) / radius * rho - ((1.0 - b / norm) * z / half_height) * axis;
+  return a + b - norm;
+}
+
+double separation(const Rod& a, const Rod& b) {
+  const Vec3 w = b.centre - a.centre;
+  double best = -1e300;
+  const auto try_direction = [&](const Vec3& n, double length2) {
+    if (!(length2 > 0)) return;
+    const Vec3 unit = n / std::sqrt(length2);
+    best = std::max(best, std::abs(w.dot(unit)) - extent(a, unit) - extent(b, unit));
+  };
+  const Vec3 across = a.axis.cross(b.axis);
+  const Vec3 from_a = w - w.dot(a.axis) * a.axis, from_b = w - w.dot(b.axis) * b.axis;
+  try_direction(a.axis, 1.0);
+  try_direction(b.axis, 1.0);
+  try_direction(from_a, from_a.squaredNorm());
+  try_direction(from_b, from_b.squaredNorm());
+  try_direction(w, w.squaredNorm());
+  if (across.squaredNorm() > 1e-10) try_direction(across, across.squaredNorm());
+  return best;
+}
+
+Touch touch_cylinders(const Rod& a, const Rod& b) {
+  const Vec3 origin = 0.5 * (a.centre + b.centre);
+  const Rod near_a{a.centre - origin, a.axis, a.radius, a.half_height};
+  const Rod near_b{b.centre - origin, b.axis, b.radius, b.half_height};
+  const double reference = 2.0 * kPi * std::min(a.radius, b.radius);
+  TouchSum sum(origin);
+  Dips dips;
+  find_dips(dips, near_a, near_b, 1.0);
+  find_dips(dips, near_b, near_a, -1.0);
+  for (int i = 0; i < dips.size; ++i) add_dip(sum, dips.dip[static_cast<std::size_t>(i)], dips.deepest);
+  add_crossing(sum, near_a, near_b, reference);
+  return sum.finish(reference, near_a.centre, near_b.centre);
+}
+
+Touch touch_floor(const Rod& rod) {
+  TouchSum sum(rod.centre);
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 offset = side * rod.half_height * rod.axis;
+    const double height = rod.centre.z() + offset.z();
+    if (height >= rod.radius) continue;
+    Circle circle{offset, {}, {}, rod.radius};
+    span_plane(rod.axis, Vec3(0, 0, 1), circle.e1, circle.e2);
+    const TrigQuadratic depth{-height, -rod.radius * circle.e1.z(), -rod.radius * circle.e2.z(), 0, 0};
+    add_circle_outside(sum, circle, depth, [](const Vec3&) { return Vec3(0, 0, -1); });
+  }
+  return sum.finish(2.0 * kPi * rod.radius, Vec3::Zero(), Vec3::Zero());
+}
+
+Touch touch_tube(const Rod& rod, double tube) {
+  TouchSum sum(rod.centre);
+  const Vec3 centre(rod.centre.x(), rod.centre.y(), 0);
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 offset = side * rod.half_height * rod.axis;
+    const Vec3 flat(centre.x() + offset.x(), centre.y() + offset.y(), 0);
+    if (flat.norm() + rod.radius <= tube) continue;
+    Circle circle{offset, {}, {}, rod.radius};
+    span_plane(rod.axis, Vec3(0, 0, 1), circle.e1, circle.e2);
+    // (rho^2 - R^2) / 2R along the circle
+    const double r = rod.radius, scale = 0.5 / tube;
+    const double a1 = circle.e1.x() * circle.e1.x() + circle.e1.y() * circle.e1.y();
+    const double a2 = circle.e2.x() * circle.e2.x() + circle.e2.y() * circle.e2.y();
+    const double a12 = circle.e1.x() * circle.e2.x() + circle.e1.y() * circle.e2.y();
+    const TrigQuadratic depth{scale * (flat.squaredNorm() - tube * tube + r * r * a2), scale * 2 * r * flat.dot(circle.e1),
+                              scale * 2 * r * flat.dot(circle.e2), scale * r * r * (a1 - a2), scale * 2 * r * r * a12};
+    add_circle_outside(sum, circle, depth, [&](const Vec3& x) {
+      return Vec3((x.x() + centre.x()) / tube, (x.y() + centre.y()) / tube, 0);
+    });
+  }
+  return sum.finish(2.0 * kPi * rod.radius, Vec3::Zero(), Vec3::Zero());
+}
+
+}  // namespace packbed

@@ -1,0 +1,75 @@
+#include "contact/law.hpp"
+
+namespace packbed {
+namespace {
+
+/// Keeps the stretch in the tangent plane as the normal turns, without changing its length.
+void follow_normal(Vec3& stretch, const Vec3& normal) {
+  const double before = stretch.squaredNorm();
+  stretch -= stretch.dot(normal) * normal;
+  const double after = stretch.squaredNorm();
+  if (after > 0) stretch *= std::sqrt(before / after);
+}
+
+void add_friction(ContactForce& out, const LawNumbers& law, const Approach& approach, double step,
+                  const Vec3& normal, double normal_force, Spring& spring) {
+  const double k = kTangentialShare * law.stiffness;
+  const double c = approach.inverse_mass > 0 ? 2.0 * law.damping_ratio * std::sqrt(k / approach.inverse_mass) : 0.0;
+  const Vec3 slide = approach.slide - approach.slide.dot(normal) * normal;
+  follow_normal(spring.stretch, normal);
+  const double stored_before = 0.5 * k * spring.stretch.squaredNorm();
+  spring.stretch += step * slide;
+  Vec3 force = -k * spring.stretch - c * slide;
+  const double limit = law.friction * normal_force, size = force.norm();
+  if (size > limit) {
+    force *= size > 0 ? limit / size : 0.0;
+    spring.stretch = -force / k;
+  }
+  const double stored = 0.5 * k * spring.stretch.squaredNorm();
+  out.friction = force;
+  out.elastic += stored;
+  out.rubbed -= step * force.dot(slide) + (stored - stored_before);
+}
+
+void add_torsion(ContactForce& out, const Touch& touch, const LawNumbers& law, const Approach& approach, double step,
+                 const Vec3& normal, double normal_force, Spring& spring) {
+  const double r2 = touch.patch_radius * touch.patch_radius;
+  const double k = kTangentialShare * law.stiffness * r2;
+  if (!(k > 0)) return;
+  const double stored_before = 0.5 * k * spring.twist * spring.twist;
+  spring.twist += step * approach.turn;
+  const double c = approach.inverse_mass > 0 ? 2.0 * law.damping_ratio * r2 *
+                                                   std::sqrt(kTangentialShare * law.stiffness / approach.inverse_mass)
+                                             : 0.0;
+  double moment = -k * spring.twist - c * approach.turn;
+  const double limit = law.friction * normal_force * touch.patch_radius;  // pressure on a ring of that radius
+  if (std::abs(moment) > limit) {
+    moment = moment > 0 ? limit : -limit;
+    spring.twist = -moment / k;
+  }
+  const double stored = 0.5 * k * spring.twist * spring.twist;
+  out.moment = moment * normal;
+  out.elastic += stored;
+  out.rubbed -= step * moment * approach.turn + (stored - stored_before);
+}
+
+}  // namespace
+
+ContactForce resolve(const Touch& touch, const LawNumbers& law, const Approach& approach, double step, Spring& spring) {
+  ContactForce out;
+  const double damping =
+      approach.inverse_mass > 0 ? 2.0 * law.damping_ratio * std::sqrt(law.stiffness / approach.inverse_mass) : 0.0;
+  const double spring_force = law.stiffness * touch.delta;
+  out.push = std::max(0.0, spring_force + damping * approach.closing);
+  out.elastic = 0.5 * spring_force * touch.delta;
+  out.damped = (out.push - spring_force) * approach.closing * step;
+  const double length = touch.gradient.norm();
+  if (!(law.friction > 0) || !(length > 0)) return out;
+  const Vec3 normal = touch.gradient / length;
+  const double normal_force = out.push * length;
+  add_friction(out, law, approach, step, normal, normal_force, spring);
+  if (law.torsion) add_torsion(out, touch, law, approach, step, normal, normal_force, spring);
+  return out;
+}
+
+}  // namespace packbed
