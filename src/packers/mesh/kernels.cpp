@@ -1,0 +1,45 @@
+#include "packers/mesh/kernels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/cylinder.hpp"
+#include "contact/sphere.hpp"
+
+namespace packbed::mesh {
+namespace {
+
+Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
+  const Shape& shape = *model.kinds[bodies.kind[i]].shape;
+  return {bodies.position[i], bodies.axis[i], shape.radius, shape.half_height};
+}
+
+Touch touch_container(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t which, double& gap) {
+  const Vec3& x = bodies.position[a];
+  const Kind& kind = model.kinds[bodies.kind[a]];
+  const double tube = model.container.radius;
+  gap = (which == kFloor ? x.z() : tube - std::hypot(x.x(), x.y())) - kind.bounding_radius;
+  if (gap > 0) return {};
+  if (kind.kernel == Kernel::sphere)
+    return which == kFloor ? touch_floor(x, kind.shape->radius) : touch_tube(x, kind.shape->radius, tube);
+  const Rod rod = rod_of(model, bodies, a);
+  return which == kFloor ? touch_floor(rod) : touch_tube(rod, tube);
+}
+
+}  // namespace
+
+Touch touch_pair(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t b, double& gap) {
+  if (is_container(b)) return touch_container(model, bodies, a, b, gap);
+  const Kind &ka = model.kinds[bodies.kind[a]], &kb = model.kinds[bodies.kind[b]];
+  const Vec3 &xa = bodies.position[a], &xb = bodies.position[b];
+  gap = (xa - xb).norm() - ka.bounding_radius - kb.bounding_radius;
+  if (gap > 0) return {};
+  if (ka.kernel == Kernel::sphere && kb.kernel == Kernel::sphere)
+    return touch_spheres(xa, ka.shape->radius, xb, kb.shape->radius);
+  const Rod ra = rod_of(model, bodies, a), rb = rod_of(model, bodies, b);
+  gap = separation(ra, rb);
+  if (gap > 0) return {};
+  return touch_cylinders(ra, rb);
+}
+
+}  // namespace packbed::mesh

@@ -1,0 +1,140 @@
+#include "packers/mesh/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/error.hpp"
+
+namespace packbed::mesh {
+namespace {
+
+Kernel kernel_for(const Scene& scene, const Shape& shape) {
+  const auto refuse = [&](const char* fits) {
+    throw InputError(scene.case_file + ": kernel", fmt::format("\"{}\" for the {} shape '{}'", scene.kernel,
+                                                               to_string(shape.kind), shape.name),
+                     fits, "kernel = \"auto\" takes the fastest exact one");
+  };
+  if (scene.kernel == "field") return Kernel::field;
+  if (shape.kind == ShapeClass::sphere) {
+    if (scene.kernel != "auto" && scene.kernel != "sphere") refuse("\"auto\", \"sphere\" or \"field\"");
+    return Kernel::sphere;
+  }
+  if (shape.kind == ShapeClass::cylinder) {
+    if (scene.kernel != "auto" && scene.kernel != "cylinder") refuse("\"auto\", \"cylinder\" or \"field\"");
+    return Kernel::cylinder;
+  }
+  if (scene.kernel != "auto") refuse("\"auto\" or \"field\"");
+  return Kernel::field;
+}
+
+std::vector<Kind> make_kinds(const Scene& scene) {
+  std::vector<Kind> kinds;
+  for (const PelletKind& pellet : scene.pellets) {
+    const Shape& shape = *pellet.shape;
+    Kind kind;
+    kind.shape = pellet.shape;
+    kind.kernel = kernel_for(scene, shape);
+    kind.mass = pellet.density * shape.volume;
+    kind.inertia = pellet.density * shape.inertia;
+    kind.bounding_radius = shape.bounding_radius;
+    kind.thickness = shape.smallest_thickness;
+    kinds.push_back(kind);
+  }
+  // kinds of different kernels only meet through the general one
+  const bool mixed = std::any_of(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.kernel != kinds[0].kernel; });
+  const bool general = mixed || scene.container.kind == ContainerKind::mesh;
+  if (general)
+    for (Kind& kind : kinds) kind.kernel = Kernel::field;
+  return kinds;
+}
+
+/// Highest speed that a pellet can have when it lands [m/s].
+double landing_speed(const Scene& scene) {
+  double fall = scene.feed.drop_height, speed = scene.feed.speed;
+  for (const PlacedPellet& p : scene.feed.placed) {
+    const double radius = scene.pellets[p.kind].shape->bounding_radius;
+    fall = std::max(fall, p.pose.position.z());
+    speed = std::max(speed, p.velocity.norm() + radius * p.spin.norm());
+  }
+  return std::sqrt(speed * speed + 2.0 * scene.gravity.norm() * std::max(0.0, fall));
+}
+
+/// k from "the hardest impact of one pellet on a wall may overlap by so much".
+double find_stiffness(const Scene& scene, const ContactLaw& law, const std::vector<Kind>& kinds) {
+  if (law.stiffness > 0) return law.stiffness;
+  const double speed = std::max(landing_speed(scene), 0.1);  // [m/s]; a bed that is only placed still has to carry itself
+  double stiffness = 0;
+  for (const Kind& kind : kinds) {
+    const double overlap = law.allowed_overlap * kind.thickness;
+    stiffness = std::max(stiffness, kind.mass * speed * speed / (overlap * overlap));
+  }
+  return stiffness;
+}
+
+LawNumbers find_law(const Scene& scene, const ContactLaw& law, const std::vector<Kind>& kinds) {
+  return {find_stiffness(scene, law, kinds), law.damping_ratio, law.friction, law.torsion};
+}
+
+/// Contact time of the stiffest contact: two of the lightest pellets, or one on the wall, face to face.
+double shortest_contact(const Model& model) {
+  double mass = model.kinds.front().mass;
+  for (const Kind& kind : model.kinds) mass = std::min(mass, kind.mass);
+  const double pellets = std::sqrt(0.5 * mass / model.pellet_law.stiffness);
+  const double wall = std::sqrt(mass / model.wall_law.stiffness);
+  return kPi * std::min(pellets, wall);
+}
+
+double expected_time(const Scene& scene) {
+  if (scene.stepping.duration > 0) return scene.stepping.duration;
+  const double g = std::max(1e-9, scene.gravity.norm());
+  const double fall = std::sqrt(2.0 * std::max(0.0, scene.feed.drop_height) / g);
+  const double layers = scene.feed.kind == FeedKind::placed ? 0.0
+                        : std::ceil(static_cast<double>(scene.feed.count.value_or(1000)) / std::max(1, scene.feed.per_layer));
+  return layers * scene.feed.interval + fall + 0.3;  // and some time to settle
+}
+
+}  // namespace
+
+std::string kernel_name(const Model& model) {
+  switch (model.kinds.front().kernel) {
+    case Kernel::sphere: return "sphere";
+    case Kernel::cylinder: return "cylinder";
+    case Kernel::field: return "field";
+  }
+  return "";
+}
+
+Model make_model(const Scene& scene) {
+  Model model;
+  model.kinds = make_kinds(scene);
+  model.container = scene.container;
+  model.gravity = scene.gravity;
+  if (scene.gravity.norm() > 0) model.up = -scene.gravity.normalized();
+  model.pellet_law = find_law(scene, scene.pellet_contact, model.kinds);
+  model.wall_law = find_law(scene, scene.wall_contact, model.kinds);
+  model.stepping = scene.stepping;
+  model.size = model.kinds.front().shape->equivalent_diameter();
+  double largest = 0;
+  for (const Kind& kind : model.kinds) {
+    model.size = std::min(model.size, kind.shape->equivalent_diameter());
+    largest = std::max(largest, kind.bounding_radius);
+  }
+  const double contact = shortest_contact(model);
+  model.step = scene.stepping.step > 0 ? scene.stepping.step : contact / scene.stepping.steps_per_contact;
+  // below six steps a contact the explicit scheme gains energy in deep touches (docs/mesh_packer.md)
+  if (model.step > contact / 6.0)
+    throw InputError(scene.case_file + ": stepping.step", fmt::format("{:.3g} us", 1e6 * model.step),
+                     fmt::format("at most {:.3g} us, a sixth of the stiffest contact's time", 1e6 * contact / 6.0),
+                     "leave the step out, or lower contact.stiffness");
+  model.skin = scene.stepping.skin > 0 ? scene.stepping.skin : 0.05 * largest;
+  // leaps need a floor below and nothing above: a container that is not recognised may have anything anywhere
+  model.may_fly = scene.feed.kind != FeedKind::placed && scene.gravity.norm() > 0 &&
+                  scene.gravity.cross(Vec3::UnitZ()).norm() < 1e-12 * scene.gravity.norm() &&
+                  (scene.container.kind == ContainerKind::tube || scene.container.kind == ContainerKind::plane);
+  model.expected_time = expected_time(scene);
+  return model;
+}
+
+}  // namespace packbed::mesh

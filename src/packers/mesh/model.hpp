@@ -1,0 +1,115 @@
+#pragma once
+// The mesh packer's two records: Model never changes in a run, State is all that does (and all that a checkpoint
+// holds).
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bed/scene.hpp"
+#include "contact/law.hpp"
+#include "dynamics/bodies.hpp"
+#include "dynamics/neighbours.hpp"
+
+namespace packbed::mesh {
+
+enum class Kernel : std::uint8_t { sphere, cylinder, field };
+
+/// A pellet kind with its numbers found.
+struct Kind {
+  ShapePtr shape;
+  Kernel kernel = Kernel::cylinder;
+  double mass = 0;                            // [kg]
+  Vec3 inertia = Vec3::Zero();                // principal moments [kg m2]
+  double bounding_radius = 0, thickness = 0;  // [m]
+};
+
+struct Model {
+  std::vector<Kind> kinds;
+  Container container;
+  Vec3 gravity = Vec3::Zero(), up = Vec3::UnitZ();
+  LawNumbers pellet_law, wall_law;
+  double step = 0;  // [s]
+  double skin = 0;  // [m]
+  double size = 0;  // of the smallest pellet, the yardstick of rest and sleep [m]
+  Stepping stepping;
+  bool may_fly = false;      // fed bodies may leap: there is gravity and nothing stands above the bed
+  double expected_time = 0;  // of the whole run, for the progress line [s]
+};
+
+/// Throws InputError for a scene that cannot be packed as given.
+Model make_model(const Scene& scene);
+/// "sphere", "cylinder", "field", or several with "+".
+std::string kernel_name(const Model& model);
+
+// Partners that stand for the container in a pair, after all bodies in sorted order.
+inline constexpr std::uint32_t kFloor = 0xfffffffd, kWall = 0xfffffffe, kSolid = 0xffffffff;
+inline bool is_container(std::uint32_t b) {
+  return b >= kFloor;
+}
+
+/// What a pair remembers between steps, and what the last look at it gave.
+struct PairRecord {
+  Spring spring;
+  Vec3 force = Vec3::Zero();                              // on a [N]
+  Vec3 torque_a = Vec3::Zero(), torque_b = Vec3::Zero();  // [N m]
+  Vec3 point = Vec3::Zero();                              // [m]
+  double elastic = 0;                                     // stored now [J]
+  double damped = 0, rubbed = 0;                          // lost since the last search [J]
+  double delta = 0;                                       // solver's overlap now [m]
+  double held = 0;  // size of the force when one of the two fell asleep [N]
+  double peak = 0;  // greatest depth since the last search, fraction of the thickness
+  // touching evaluations since the last search, and those deeper than 5 % and 10 % of the thickness
+  std::uint32_t looks = 0, deep_looks = 0, very_deep_looks = 0;
+};
+
+struct Pairs {
+  std::vector<BodyPair> pair;         // ascending
+  std::vector<double> look_at;        // no touch before the travel of both bodies adds up to this [m]
+  std::vector<PairRecord> record;
+  std::vector<std::uint32_t> active;  // those with a body that moves
+  // bodies to pairs: entries 2 * pair + side of body i stand at first[i] .. first[i + 1]
+  std::vector<std::uint32_t> first, entry;
+  std::vector<std::uint32_t> shore;  // sleepers beside something that moves, ascending
+  std::uint8_t shore_stale = 1;
+};
+
+/// Sleep and its shadow integration (see sleep.cpp).
+struct Doze {
+  Vec3 anchor = Vec3::Zero();  // position when the watch began [m]
+  Quat anchor_rotation = Quat::Identity();
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();      // net, when it fell asleep [N], [N m]
+  Vec3 shift = Vec3::Zero(), shift_rate = Vec3::Zero();  // how far it would have moved [m], [m/s]
+  Vec3 turn = Vec3::Zero(), turn_rate = Vec3::Zero();    // ... and turned [rad], [rad/s]
+};
+
+/// Totals since the start, each added in fixed order.
+struct Ledger {
+  double input = 0, damped = 0, rubbed = 0, removed = 0;          // [J]
+  double peak = 0;                                                // greatest depth, fraction of the thickness
+  double looks = 0, deep_looks = 0, very_deep_looks = 0;          // touching evaluations; deeper than 5 %, 10 %
+  double searches = 0, wakes = 0, sleeps = 0;
+};
+
+struct State {
+  double time = 0;  // simulated [s]
+  std::int64_t steps = 0;
+  Bodies bodies;
+  std::vector<double> flight_end;   // of airborne bodies: when they may meet others in flight or the wall [s]
+  std::vector<double> flight_from;  // of airborne bodies: time at which their arrays stand [s]
+  std::vector<Vec3> listed_at;      // position at the last search [m]
+  std::vector<double> margin;       // way that each body may go before the next search [m]
+  std::vector<Doze> doze;
+  Pairs pairs;
+  std::vector<std::uint32_t> awake;  // ascending
+  double next_landing = 0;           // [s]
+  std::uint8_t search_due = 1;
+  // rest: the present watch, and what the last one found
+  double rest_since = 0;             // [s]
+  std::vector<Vec3> rest_anchor;     // [m]
+  std::uint8_t at_rest = 0;
+  double rest_speed = 0, rest_force = 0, rest_drift = 0;  // [m/s], fraction of the weight, fraction of the size
+  std::uint8_t waited = 0;           // feeding has had to wait for room
+  Ledger ledger;
+};
+
+}  // namespace packbed::mesh

@@ -1,0 +1,34 @@
+// Phase rest: three questions, asked together over one window: how fast, how far from balance, how far drifted.
+#include <algorithm>
+#include <cmath>
+
+#include "packers/mesh/step.hpp"
+
+namespace packbed::mesh {
+
+void rest(const Model& model, State& state, const Feeder& feeder) {
+  if (!feeder.done() || state.time - state.rest_since < model.stepping.rest_window) return;
+  const Bodies& b = state.bodies;
+  double speed2 = 0, unbalanced = 0, drift = 0;
+  std::size_t moving = 0, flying = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (b.motion[i] == Motion::fixed) continue;
+    ++moving;
+    flying += b.motion[i] == Motion::airborne;
+    speed2 += 2.0 * (kinetic_translation(b, i) + kinetic_rotation(b, i)) / b.mass[i];
+    const Vec3 weight = b.mass[i] * model.gravity;
+    // sleepers have found their balance when they fell asleep
+    if (b.motion[i] == Motion::awake) unbalanced += (b.force[i] + weight).norm() / std::max(1e-300, weight.norm());
+    drift = std::max(drift, (b.position[i] - state.rest_anchor[i]).norm() / model.size);
+    state.rest_anchor[i] = b.position[i];
+  }
+  const double n = std::max<double>(1.0, static_cast<double>(moving));
+  state.rest_speed = std::sqrt(speed2 / n);
+  state.rest_force = unbalanced / n;
+  state.rest_drift = drift;
+  state.at_rest = flying == 0 && state.rest_speed <= model.stepping.rest_speed &&
+                  state.rest_force <= model.stepping.rest_force && state.rest_drift <= model.stepping.rest_drift;
+  state.rest_since = state.time;
+}
+
+}  // namespace packbed::mesh

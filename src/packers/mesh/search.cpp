@@ -1,0 +1,168 @@
+// Phases feed and find_pairs: who is in the scene, and who may touch whom before the next search.
+#include <algorithm>
+#include <cmath>
+
+#include "packers/mesh/flight.hpp"
+#include "packers/mesh/step.hpp"
+
+namespace packbed::mesh {
+namespace {
+
+// A body may go this many steps at its present speed before the list is made anew: rarer searches, longer lists.
+constexpr double kHorizonSteps = 60;
+// What moves faster is not part of the bed's surface [m/s].
+constexpr double kSurfaceSpeed = 0.2;
+
+void enter(const Model& model, State& state, const Pellet& pellet) {
+  const Kind& kind = model.kinds[pellet.shape];
+  Bodies& b = state.bodies;
+  add_body(b, {pellet.shape, kind.mass, kind.inertia, kind.bounding_radius, pellet.pose, pellet.velocity,
+               pellet.spin, pellet.fixed, model.may_fly && !pellet.fixed});
+  const std::size_t i = b.size() - 1;
+  state.flight_from.push_back(state.time);
+  state.flight_end.push_back(state.time);
+  state.listed_at.push_back(pellet.pose.position);
+  state.margin.push_back(0);
+  state.doze.emplace_back();
+  state.doze.back().anchor = pellet.pose.position;
+  state.doze.back().anchor_rotation = b.rotation[i];
+  state.rest_anchor.push_back(pellet.pose.position);
+  if (b.motion[i] == Motion::airborne) begin_flight(model, state, i);
+  if (!pellet.fixed)
+    state.ledger.input +=
+        kinetic_translation(b, i) + kinetic_rotation(b, i) - kind.mass * model.gravity.dot(b.position[i]);
+}
+
+bool still(Motion m) {
+  return m == Motion::asleep || m == Motion::fixed;
+}
+
+bool quiet(const Bodies& b, const BodyPair& pair) {
+  return still(b.motion[pair.a]) && (is_container(pair.b) || still(b.motion[pair.b]));
+}
+
+void add_container_pairs(const Model& model, const State& state, std::vector<BodyPair>& pairs) {
+  const Bodies& b = state.bodies;
+  const ContainerKind kind = model.container.kind;
+  if (kind == ContainerKind::none) return;
+  for (std::uint32_t i : state.awake) {
+    const double reach = b.bounding_radius[i] + state.margin[i];
+    const Vec3& x = b.position[i];
+    if (kind == ContainerKind::mesh) pairs.push_back({i, kSolid});
+    if (kind != ContainerKind::mesh && x.z() < reach) pairs.push_back({i, kFloor});
+    if (kind == ContainerKind::tube && std::hypot(x.x(), x.y()) + reach > model.container.radius)
+      pairs.push_back({i, kWall});
+  }
+}
+
+/// Old pairs that touch while both stand still keep their forces; they are not searched for again.
+void keep_quiet_pairs(const State& state, std::vector<BodyPair>& pairs) {
+  for (std::size_t p = 0; p < state.pairs.pair.size(); ++p)
+    if (state.pairs.record[p].delta > 0 && quiet(state.bodies, state.pairs.pair[p]))
+      pairs.push_back(state.pairs.pair[p]);
+}
+
+/// Carries records over to the new list; both lists ascend.
+void carry_over(Pairs& pairs, std::vector<BodyPair>& fresh) {
+  std::vector<double> look_at(fresh.size(), 0.0);
+  std::vector<PairRecord> record(fresh.size());
+  std::size_t old = 0;
+  for (std::size_t p = 0; p < fresh.size(); ++p) {
+    while (old < pairs.pair.size() && pairs.pair[old] < fresh[p]) ++old;
+    if (old == pairs.pair.size() || !(pairs.pair[old] == fresh[p])) continue;
+    look_at[p] = pairs.look_at[old];
+    record[p] = pairs.record[old];
+  }
+  pairs.pair.swap(fresh);
+  pairs.look_at.swap(look_at);
+  pairs.record.swap(record);
+}
+
+void index_pairs(const Bodies& bodies, Pairs& pairs) {
+  pairs.first.assign(bodies.size() + 1, 0);
+  pairs.active.clear();
+  pairs.shore_stale = 1;
+  for (std::uint32_t p = 0; p < pairs.pair.size(); ++p) {
+    const auto [a, b] = pairs.pair[p];
+    ++pairs.first[a + 1];
+    if (!is_container(b)) ++pairs.first[b + 1];
+    if (!quiet(bodies, pairs.pair[p])) pairs.active.push_back(p);
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) pairs.first[i + 1] += pairs.first[i];
+  pairs.entry.resize(pairs.first.back());
+  std::vector<std::uint32_t> next(pairs.first.begin(), pairs.first.end() - 1);
+  for (std::uint32_t p = 0; p < pairs.pair.size(); ++p) {
+    const auto [a, b] = pairs.pair[p];
+    pairs.entry[next[a]++] = 2 * p;
+    if (!is_container(b)) pairs.entry[next[b]++] = 2 * p + 1;
+  }
+}
+
+}  // namespace
+
+void settle_accounts(State& state) {
+  for (PairRecord& r : state.pairs.record) {
+    state.ledger.damped += r.damped;
+    state.ledger.rubbed += r.rubbed;
+    state.ledger.peak = std::max(state.ledger.peak, r.peak);
+    state.ledger.looks += r.looks;
+    state.ledger.deep_looks += r.deep_looks;
+    state.ledger.very_deep_looks += r.very_deep_looks;
+    r.damped = r.rubbed = r.peak = 0;
+    r.looks = r.deep_looks = r.very_deep_looks = 0;
+  }
+}
+
+void feed(const Model& model, State& state, Feeder& feeder) {
+  if (state.time + 0.5 * model.step < feeder.next_time()) return;
+  catch_up(model, state);
+  const Bodies& b = state.bodies;
+  std::vector<Pellet> present(b.size());
+  double surface = 0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    present[i].id = static_cast<std::uint32_t>(i);
+    present[i].shape = b.kind[i];
+    present[i].pose = {b.position[i], b.rotation[i]};
+    if (b.motion[i] != Motion::airborne && b.velocity[i].norm() < kSurfaceSpeed)
+      surface = std::max(surface, b.position[i].z() + b.bounding_radius[i]);
+  }
+  const std::vector<Pellet> entering = feeder.enter(state.time, present, surface);
+  for (const Pellet& pellet : entering) enter(model, state, pellet);
+  if (!entering.empty()) state.search_due = 1;
+  if (feeder.waiting()) state.waited = 1;
+}
+
+void find_pairs(const Model& model, State& state) {
+  if (!state.search_due && state.time + model.step <= state.next_landing) return;
+  state.search_due = 0;
+  ++state.ledger.searches;
+  settle_accounts(state);
+  catch_up(model, state);
+  Bodies& b = state.bodies;
+  const double horizon = kHorizonSteps * model.step;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    state.margin[i] = model.skin + (b.motion[i] == Motion::awake ? b.velocity[i].norm() * horizon : 0.0);
+    state.listed_at[i] = b.position[i];
+  }
+  land(model, state, horizon);
+  std::vector<std::uint32_t> present;
+  std::vector<std::uint8_t> stands(b.size());
+  std::vector<double> reach(b.size());
+  state.awake.clear();
+  for (std::uint32_t i = 0; i < b.size(); ++i) {
+    stands[i] = still(b.motion[i]);
+    reach[i] = b.bounding_radius[i] + state.margin[i];
+    if (b.motion[i] != Motion::airborne) present.push_back(i);
+    if (b.motion[i] == Motion::awake) state.awake.push_back(i);
+  }
+  std::vector<BodyPair> fresh;
+  NeighbourSearch search;
+  search.find(present, b.position, reach, stands, fresh);
+  add_container_pairs(model, state, fresh);
+  keep_quiet_pairs(state, fresh);
+  std::sort(fresh.begin(), fresh.end());
+  carry_over(state.pairs, fresh);
+  index_pairs(b, state.pairs);
+}
+
+}  // namespace packbed::mesh

@@ -1,0 +1,144 @@
+// Phase sleep: pellets that have settled stand still until something would move them.
+//
+// Falling asleep: over one watch a body has moved and turned by less than a small fraction of its size, and touches something.
+// Waking: a shadow of the body is integrated instead of the body. The change of the net force since it fell asleep drives an
+// oscillator of the period and damping of a contact; the shadow's displacement is how far the body would have gone. A short knock
+// from a far impact moves it little, a lasting push moves it far. What hangs on after its support has gone moves little in the
+// shadow, whose contact is always there: so at the end of each watch the contacts of a sleeper are asked what they still carry.
+#include <algorithm>
+#include <cmath>
+
+#include "math/threads.hpp"
+#include "packers/mesh/step.hpp"
+
+namespace packbed::mesh {
+namespace {
+
+// Length of one watch, in contact times: several periods of a pellet on its contacts.
+constexpr double kWatchContacts = 60;
+// Contacts that carry less than when the body fell asleep, together by this fraction of its weight, are a lost support.
+constexpr double kLostSupport = 0.3;
+
+double size_of(const Model& model, const Bodies& b, std::size_t i) {
+  return 2.0 * std::cbrt(0.75 / kPi * model.kinds[b.kind[i]].shape->volume);
+}
+
+void begin_watch(State& state, std::size_t i) {
+  state.doze[i].anchor = state.bodies.position[i];
+  state.doze[i].anchor_rotation = state.bodies.rotation[i];
+}
+
+bool has_settled(const Model& model, const State& state, std::size_t i) {
+  const Bodies& b = state.bodies;
+  const Doze& d = state.doze[i];
+  const double size = size_of(model, b, i), limit = model.stepping.sleep_displacement * size;
+  if ((b.position[i] - d.anchor).norm() > limit) return false;
+  const double turn = 2.0 * (b.rotation[i].coeffs() - d.anchor_rotation.coeffs()).norm();
+  if (0.5 * size * turn > limit) return false;
+  const Pairs& pairs = state.pairs;
+  for (std::uint32_t e = pairs.first[i]; e < pairs.first[i + 1]; ++e)
+    if (pairs.record[pairs.entry[e] >> 1].delta > 0) return true;
+  return false;
+}
+
+void wake(State& state, std::size_t i) {
+  state.bodies.motion[i] = Motion::awake;
+  begin_watch(state, i);
+  ++state.ledger.wakes;
+  state.search_due = 1;
+}
+
+void fall_asleep(State& state, std::size_t i) {
+  Bodies& b = state.bodies;
+  state.ledger.removed += kinetic_translation(b, i) + kinetic_rotation(b, i);
+  ++state.ledger.sleeps;
+  b.motion[i] = Motion::asleep;
+  b.velocity[i].setZero();
+  b.angular_momentum[i].setZero();
+  b.spin[i].setZero();
+  Doze& d = state.doze[i];
+  d.force = b.force[i];
+  d.torque = b.torque[i];
+  d.shift.setZero();
+  d.shift_rate.setZero();
+  d.turn.setZero();
+  d.turn_rate.setZero();
+  Pairs& pairs = state.pairs;
+  for (std::uint32_t e = pairs.first[i]; e < pairs.first[i + 1]; ++e) {
+    PairRecord& r = pairs.record[pairs.entry[e] >> 1];
+    r.held = r.force.norm();
+  }
+  state.search_due = 1;
+}
+
+/// One step of the shadow: a damped oscillator under the change of force. True when it has gone too far.
+bool shadow_wakes(const Model& model, State& state, std::size_t i) {
+  Bodies& b = state.bodies;
+  Doze& d = state.doze[i];
+  gather(state, i, b.force[i], b.torque[i]);
+  const double stiffness = model.pellet_law.stiffness, omega2 = stiffness * b.inverse_mass[i], omega = std::sqrt(omega2);
+  const double step = model.step;
+  const Vec3 push = b.inverse_mass[i] * (b.force[i] - d.force);
+  const Vec3 twist = inverse_inertia_times(b, i, b.torque[i] - d.torque);
+  d.shift_rate += step * (push - omega2 * d.shift - 2.0 * omega * d.shift_rate);
+  d.shift += step * d.shift_rate;
+  d.turn_rate += step * (twist - omega2 * d.turn - 2.0 * omega * d.turn_rate);
+  d.turn += step * d.turn_rate;
+  const double size = size_of(model, b, i), limit = model.stepping.sleep_displacement * size;
+  return d.shift.norm() + 0.5 * size * d.turn.norm() > limit;
+}
+
+/// The contacts that can change carry less than they did when the body fell asleep.
+bool has_lost_support(const Model& model, const State& state, std::size_t i) {
+  const Pairs& pairs = state.pairs;
+  double lost = 0;
+  for (std::uint32_t e = pairs.first[i]; e < pairs.first[i + 1]; ++e) {
+    const PairRecord& r = pairs.record[pairs.entry[e] >> 1];
+    lost += std::max(0.0, r.held - r.force.norm());
+  }
+  return lost > kLostSupport * state.bodies.mass[i] * model.gravity.norm();
+}
+
+/// Sleepers that have a pair with something that moves, ascending.
+std::vector<std::uint32_t> find_shore(const State& state) {
+  std::vector<std::uint32_t> shore;
+  const std::vector<Motion>& motion = state.bodies.motion;
+  for (std::uint32_t p : state.pairs.active) {
+    const auto [a, b] = state.pairs.pair[p];
+    if (motion[a] == Motion::asleep) shore.push_back(a);
+    if (!is_container(b) && motion[b] == Motion::asleep) shore.push_back(b);
+  }
+  std::sort(shore.begin(), shore.end());
+  shore.erase(std::unique(shore.begin(), shore.end()), shore.end());
+  return shore;
+}
+
+}  // namespace
+
+void sleep(const Model& model, State& state) {
+  if (!model.stepping.sleep) return;
+  Bodies& b = state.bodies;
+  const double contact_time = kPi * std::sqrt(0.5 * model.kinds.front().mass / model.pellet_law.stiffness);
+  const auto watch = std::max<std::int64_t>(1, std::llround(kWatchContacts * contact_time / model.step));
+  const bool watch_ends = state.steps % watch == 0;
+  if (state.pairs.shore_stale) state.pairs.shore = find_shore(state);
+  state.pairs.shore_stale = 0;
+  const std::vector<std::uint32_t>& shore = state.pairs.shore;
+  std::vector<std::uint8_t> wakes(shore.size());
+  parallel_for(shore.size(), 128, [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k)
+      wakes[k] = shadow_wakes(model, state, shore[k]) || (watch_ends && has_lost_support(model, state, shore[k]));
+  });
+  for (std::size_t k = 0; k < shore.size(); ++k)
+    if (wakes[k]) wake(state, shore[k]);
+  if (!watch_ends) return;
+  for (std::uint32_t i : state.awake) {
+    if (b.motion[i] != Motion::awake) continue;
+    if (has_settled(model, state, i))
+      fall_asleep(state, i);
+    else
+      begin_watch(state, i);
+  }
+}
+
+}  // namespace packbed::mesh
