@@ -8,7 +8,8 @@
 namespace packbed {
 namespace {
 
-constexpr int kSamples = 16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
+constexpr int kSamples =
+    16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
 
 struct SampleTable {
   std::array<double, kSamples> c, s;

@@ -1,6 +1,6 @@
 #pragma once
-// A circle in space and the arcs of it on which a quadratic of the position is positive: the rims of a cylinder
-// dipping into another cylinder, through a floor or into the wall of a tube.
+// A circle in space and the arcs of it on which a quadratic of the position is positive: the rims of a
+// cylinder dipping into another cylinder, through a floor or into the wall of a tube.
 #include <array>
 
 #include "math/types.hpp"
@@ -8,9 +8,9 @@
 namespace packbed {
 
 struct Circle {
-  Vec3 centre;       // [m]
-  Vec3 e1, e2;       // unit vectors that span its plane; point(phi) = centre + radius (e1 cos phi + e2 sin phi)
-  double radius = 0; // [m]
+  Vec3 centre;  // [m]
+  Vec3 e1, e2;  // unit vectors that span its plane; point(phi) = centre + radius (e1 cos phi + e2 sin phi)
+  double radius = 0;  // [m]
 
   Vec3 point(double cosine, double sine) const { return centre + radius * (cosine * e1 + sine * e2); }
 };
@@ -23,14 +23,16 @@ struct TrigQuadratic {
   double k0 = 0, k1 = 0, k2 = 0, k3 = 0, k4 = 0;
 
   double at(double c, double s) const { return k0 + c * (k1 + k3 * c + k4 * s) + k2 * s; }
-  double slope(double c, double s) const { return -s * k1 + c * k2 - 2.0 * k3 * s * c + k4 * (c * c - s * s); }
+  double slope(double c, double s) const {
+    return -s * k1 + c * k2 - 2.0 * k3 * s * c + k4 * (c * c - s * s);
+  }
   double curvature(double c, double s) const {
     return -c * k1 - s * k2 - 2.0 * k3 * (c * c - s * s) - 4.0 * k4 * s * c;
   }
 };
 
 struct Arc {
-  double from = 0, to = 0;      // radians, from < to <= from + 2 pi
+  double from = 0, to = 0;           // radians, from < to <= from + 2 pi
   int from_root = -1, to_root = -1;  // which quadratic vanishes at the end; -1: none (a full turn)
 };
 

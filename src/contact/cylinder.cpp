@@ -11,14 +11,18 @@
 namespace packbed {
 namespace {
 
-// Radius of the ring inside each cap, fraction of the cap's. Between 0.5 and 0.8 the stiffness of a coaxial stack changes by 10 %.
+// Radius of the ring inside each cap, fraction of the cap's. Between 0.5 and 0.8 the stiffness of a coaxial
+// stack changes by 10 %.
 constexpr double kRing = 0.6;
-// Length that the touch of two crossed sides counts for, fraction of the reference length: with it, it is about as stiff as an edge.
+// Length that the touch of two crossed sides counts for, fraction of the reference length: with it, it is
+// about as stiff as an edge.
 constexpr double kSideLength = 0.05;
-// Sine of the angle between axes under which the crossing fades out and the rims alone carry the touch of two sides.
+// Sine of the angle between axes under which the crossing fades out and the rims alone carry the touch of two
+// sides.
 constexpr double kParallel = 0.03;
 
-// An arc whose depth stays under this fraction of the greatest depth adds less than its 8th power, 1e-8, and is left out.
+// An arc whose depth stays under this fraction of the greatest depth adds less than its 8th power, 1e-8, and
+// is left out.
 constexpr double kNegligible = 0.1;
 
 enum Root { kSide = 0, kCap = 1 };
@@ -27,7 +31,8 @@ using Nodes = std::array<double, kArcNodes>;
 
 double total(const Nodes& v) {
   static_assert(kArcNodes == 12);
-  const double a = (v[0] + v[4]) + v[8], b = (v[1] + v[5]) + v[9], c = (v[2] + v[6]) + v[10], d = (v[3] + v[7]) + v[11];
+  const double a = (v[0] + v[4]) + v[8], b = (v[1] + v[5]) + v[9], c = (v[2] + v[6]) + v[10],
+               d = (v[3] + v[7]) + v[11];
   return (a + b) + (c + d);
 }
 
@@ -49,15 +54,16 @@ struct CircleInRod {
 
 /// Sums over the nodes of one arc, with rate_i = w_i 8 d_i^7.
 struct ArcSums {
-  double power;                      // w d^8
-  double shift, spread;              // rate d', rate d' xi: what moving or spreading the nodes does
-  double side, side_c, side_s;       // rate (d d / d a) / R, and its moments with cos and sin
-  double axial, axial_c, axial_s;    // the share along the axis
+  double power;                    // w d^8
+  double shift, spread;            // rate d', rate d' xi: what moving or spreading the nodes does
+  double side, side_c, side_s;     // rate (d d / d a) / R, and its moments with cos and sin
+  double axial, axial_c, axial_s;  // the share along the axis
   double rate, rate_c, rate_s;
   double deepest;
 };
 
-/// All nodes of one arc of angles middle +- half. A full turn takes evenly spaced nodes (spectral for periodic functions).
+/// All nodes of one arc of angles middle +- half. A full turn takes evenly spaced nodes (spectral for
+/// periodic functions).
 PACKBED_WIDE void sum_arc(const CircleInRod& g, double middle, double half, bool full, ArcSums& out) {
   Nodes power, shift, spread, side, side_c, side_s, axial, axial_c, axial_s, rate, rate_c, rate_s, deep;
   const double per_radius = 1.0 / g.radius, per_height = 1.0 / g.half_height;
@@ -87,18 +93,23 @@ PACKBED_WIDE void sum_arc(const CircleInRod& g, double middle, double half, bool
     rate_s[i] = r * s;
     deep[i] = std::min(a, b);
   }
-  out = {total(power),   total(shift), total(spread), total(side),   total(side_c), total(side_s), total(axial),
-         total(axial_c), total(axial_s), total(rate), total(rate_c), total(rate_s), 0.0};
+  out = {total(power), total(shift),   total(spread),  total(side), total(side_c), total(side_s),
+         total(axial), total(axial_c), total(axial_s), total(rate), total(rate_c), total(rate_s),
+         0.0};
   for (double d : deep) out.deepest = std::max(out.deepest, d);
 }
 
-/// The end of an arc lies where `side` or `cap` of the rod vanishes; it moves with the bodies, and so do the nodes.
-void add_arc_end(TouchSum& sum, const Circle& circle, double phi, int root, double rate, const Rod& rod, double sign) {
+/// The end of an arc lies where `side` or `cap` of the rod vanishes; it moves with the bodies, and so do the
+/// nodes.
+void add_arc_end(TouchSum& sum, const Circle& circle, double phi, int root, double rate, const Rod& rod,
+                 double sign) {
   double s, c;
   sincos_poly(phi, s, c);
-  const Vec3 x = circle.point(c, s), y = x - rod.centre, tangent = circle.radius * (c * circle.e2 - s * circle.e1);
+  const Vec3 x = circle.point(c, s), y = x - rod.centre,
+             tangent = circle.radius * (c * circle.e2 - s * circle.e1);
   const double z = y.dot(rod.axis);
-  const Vec3 slope = root == kSide ? Vec3(-(y - z * rod.axis) / rod.radius) : Vec3(-z / rod.half_height * rod.axis);
+  const Vec3 slope =
+      root == kSide ? Vec3(-(y - z * rod.axis) / rod.radius) : Vec3(-z / rod.half_height * rod.axis);
   const double turn = slope.dot(tangent);
   if (std::abs(turn) < 1e-12 * circle.radius) return;  // a touch that has only just begun: nothing to carry
   sum.add_end(x, -rate / turn, sign * slope);
@@ -110,14 +121,14 @@ struct Dip {
   CircleInRod g;
   PeakList peaks;
   const Rod* rod = nullptr;
-  double sign = 0;       // +1 when the circle belongs to a, -1 when to b
+  double sign = 0;  // +1 when the circle belongs to a, -1 when to b
   bool meets_cap = false;
 };
 
 struct Dips {
   std::array<Dip, 8> dip;
   int size = 0;
-  double deepest = 0;    // of the depths found at the peaks: a lower bound of the greatest depth
+  double deepest = 0;  // of the depths found at the peaks: a lower bound of the greatest depth
 };
 
 double depth_of(double side, double cap) {
@@ -139,8 +150,14 @@ void find_dip(Dips& dips, const Vec3& centre, const Vec3& axis, double radius, c
   dip.circle = {centre, {}, {}, radius};
   span_plane(axis, rod.axis, dip.circle.e1, dip.circle.e2);
   const Vec3 &e1 = dip.circle.e1, &e2 = dip.circle.e2;
-  dip.g = {w.squaredNorm() + radius * radius, 2 * radius * w.dot(e1), 2 * radius * w.dot(e2), z0,
-           radius * rod.axis.dot(e1), radius * rod.axis.dot(e2), rod.radius, rod.half_height};
+  dip.g = {w.squaredNorm() + radius * radius,
+           2 * radius * w.dot(e1),
+           2 * radius * w.dot(e2),
+           z0,
+           radius * rod.axis.dot(e1),
+           radius * rod.axis.dot(e2),
+           rod.radius,
+           rod.half_height};
   const double scale = 2.0 * rod.radius;
   dip.peaks = positive_peaks(dip.g.side(), kNegligible * dips.deepest * scale);
   if (dip.peaks.size == 0) return;
@@ -181,7 +198,8 @@ void add_arc(TouchSum& sum, const Dip& dip, const Arc& arc) {
   const Vec3 force = length * (t.side * rod.centre + t.axial * rod.axis) - side;  // sum of rate * slope
   const Vec3 torque = side.cross(rod.centre) + axial.cross(rod.axis);             // sum of x cross that
   const Vec3 pressure = moment(t.rate, t.rate_c, t.rate_s);
-  const double second = 2.0 * pressure.dot(circle.centre) + length * t.rate * (radius * radius - circle.centre.squaredNorm());
+  const double second =
+      2.0 * pressure.dot(circle.centre) + length * t.rate * (radius * radius - circle.centre.squaredNorm());
   sum.add_sums(length * t.power, sign * force, sign * torque, length * t.rate, pressure, second, t.deepest);
   if (arc.from_root < 0) return;
   const double from_rate = 0.5 * (length * (t.shift - t.spread) - radius * t.power);
@@ -202,7 +220,8 @@ void add_dip(TouchSum& sum, const Dip& dip, double deepest) {
   for (int i = 0; i < arcs.size; ++i) add_arc(sum, dip, arcs.arc[static_cast<std::size_t>(i)]);
 }
 
-/// The sides of two crossed cylinders, at the common perpendicular of their axes. Closed form; s and t are its feet on the axes.
+/// The sides of two crossed cylinders, at the common perpendicular of their axes. Closed form; s and t are
+/// its feet on the axes.
 void add_crossing(TouchSum& sum, const Rod& a, const Rod& b, double reference) {
   const Vec3 w = b.centre - a.centre;
   const double c = a.axis.dot(b.axis), sine2 = 1.0 - c * c;
@@ -239,7 +258,8 @@ void add_crossing(TouchSum& sum, const Rod& a, const Rod& b, double reference) {
 
 /// One circle against a field that is a quadratic of the position along it: floor and tube.
 template <class Field>
-void add_circle_outside(TouchSum& sum, const Circle& circle, const TrigQuadratic& depth, const Field& slope_at) {
+void add_circle_outside(TouchSum& sum, const Circle& circle, const TrigQuadratic& depth,
+                        const Field& slope_at) {
   const ArcList arcs = positive_arcs(depth, 0);
   for (int i = 0; i < arcs.size; ++i) {
     const Arc& arc = arcs.arc[static_cast<std::size_t>(i)];
@@ -351,8 +371,9 @@ Touch touch_tube(const Rod& rod, double tube) {
     const double a1 = circle.e1.x() * circle.e1.x() + circle.e1.y() * circle.e1.y();
     const double a2 = circle.e2.x() * circle.e2.x() + circle.e2.y() * circle.e2.y();
     const double a12 = circle.e1.x() * circle.e2.x() + circle.e1.y() * circle.e2.y();
-    const TrigQuadratic depth{scale * (flat.squaredNorm() - tube * tube + r * r * a2), scale * 2 * r * flat.dot(circle.e1),
-                              scale * 2 * r * flat.dot(circle.e2), scale * r * r * (a1 - a2), scale * 2 * r * r * a12};
+    const TrigQuadratic depth{scale * (flat.squaredNorm() - tube * tube + r * r * a2),
+                              scale * 2 * r * flat.dot(circle.e1), scale * 2 * r * flat.dot(circle.e2),
+                              scale * r * r * (a1 - a2), scale * 2 * r * r * a12};
     add_circle_outside(sum, circle, depth, [&](const Vec3& x) {
       return Vec3((x.x() + centre.x()) / tube, (x.y() + centre.y()) / tube, 0);
     });

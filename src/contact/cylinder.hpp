@@ -1,14 +1,17 @@
 #pragma once
-// Contact between solid cylinders, and of a cylinder with a floor and with the wall of a tube. Analytic: no mesh, no samples
-// on the surface. The features that carry the touch, each integrated where it dips into the other body and nowhere else:
+// Contact between solid cylinders, and of a cylinder with a floor and with the wall of a tube. Analytic: no
+// mesh, no samples on the surface. The features that carry the touch, each integrated where it dips into the
+// other body and nowhere else:
 //
 //     rim in cylinder     four rims; an arc of Gauss nodes between exact end points     edge and face touches
 //     ring in cylinder    a ring inside each cap                                        stacked, coaxial caps
 //     side against side   the common perpendicular of the axes, closed form             crossed cylinders
 //
-// The depth of a point in a cylinder of radius R and half height h, at distance rho from the axis and height z:
+// The depth of a point in a cylinder of radius R and half height h, at distance rho from the axis and height
+// z:
 //     a = (R^2 - rho^2) / 2R,   b = (h^2 - z^2) / 2h,   depth = a + b - sqrt(a^2 + b^2)   for a, b > 0
-// It is smooth inside, never larger than the nearer of the two distances, and of unit slope at the surface (Rvachev's R-function).
+// It is smooth inside, never larger than the nearer of the two distances, and of unit slope at the surface
+// (Rvachev's R-function).
 #include "contact/touch.hpp"
 
 namespace packbed {
@@ -21,7 +24,8 @@ struct Rod {
   double half_height = 0;  // [m]
 };
 
-/// Largest separation over a few directions: a lower bound of the distance, negative where none separates [m].
+/// Largest separation over a few directions: a lower bound of the distance, negative where none separates
+/// [m].
 double separation(const Rod& a, const Rod& b);
 
 Touch touch_cylinders(const Rod& a, const Rod& b);

@@ -14,7 +14,8 @@ void follow_normal(Vec3& stretch, const Vec3& normal) {
 void add_friction(ContactForce& out, const LawNumbers& law, const Approach& approach, double step,
                   const Vec3& normal, double normal_force, Spring& spring) {
   const double k = kTangentialShare * law.stiffness;
-  const double c = approach.inverse_mass > 0 ? 2.0 * law.damping_ratio * std::sqrt(k / approach.inverse_mass) : 0.0;
+  const double c =
+      approach.inverse_mass > 0 ? 2.0 * law.damping_ratio * std::sqrt(k / approach.inverse_mass) : 0.0;
   const Vec3 slide = approach.slide - approach.slide.dot(normal) * normal;
   follow_normal(spring.stretch, normal);
   const double stored_before = 0.5 * k * spring.stretch.squaredNorm();
@@ -31,16 +32,17 @@ void add_friction(ContactForce& out, const LawNumbers& law, const Approach& appr
   out.rubbed -= step * force.dot(slide) + (stored - stored_before);
 }
 
-void add_torsion(ContactForce& out, const Touch& touch, const LawNumbers& law, const Approach& approach, double step,
-                 const Vec3& normal, double normal_force, Spring& spring) {
+void add_torsion(ContactForce& out, const Touch& touch, const LawNumbers& law, const Approach& approach,
+                 double step, const Vec3& normal, double normal_force, Spring& spring) {
   const double r2 = touch.patch_radius * touch.patch_radius;
   const double k = kTangentialShare * law.stiffness * r2;
   if (!(k > 0)) return;
   const double stored_before = 0.5 * k * spring.twist * spring.twist;
   spring.twist += step * approach.turn;
-  const double c = approach.inverse_mass > 0 ? 2.0 * law.damping_ratio * r2 *
-                                                   std::sqrt(kTangentialShare * law.stiffness / approach.inverse_mass)
-                                             : 0.0;
+  const double c =
+      approach.inverse_mass > 0
+          ? 2.0 * law.damping_ratio * r2 * std::sqrt(kTangentialShare * law.stiffness / approach.inverse_mass)
+          : 0.0;
   double moment = -k * spring.twist - c * approach.turn;
   const double limit = law.friction * normal_force * touch.patch_radius;  // pressure on a ring of that radius
   if (std::abs(moment) > limit) {
@@ -55,10 +57,12 @@ void add_torsion(ContactForce& out, const Touch& touch, const LawNumbers& law, c
 
 }  // namespace
 
-ContactForce resolve(const Touch& touch, const LawNumbers& law, const Approach& approach, double step, Spring& spring) {
+ContactForce resolve(const Touch& touch, const LawNumbers& law, const Approach& approach, double step,
+                     Spring& spring) {
   ContactForce out;
-  const double damping =
-      approach.inverse_mass > 0 ? 2.0 * law.damping_ratio * std::sqrt(law.stiffness / approach.inverse_mass) : 0.0;
+  const double damping = approach.inverse_mass > 0
+                             ? 2.0 * law.damping_ratio * std::sqrt(law.stiffness / approach.inverse_mass)
+                             : 0.0;
   const double spring_force = law.stiffness * touch.delta;
   out.push = std::max(0.0, spring_force + damping * approach.closing);
   out.elastic = 0.5 * spring_force * touch.delta;

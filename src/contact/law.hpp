@@ -1,6 +1,6 @@
 #pragma once
-// From a Touch to forces: normal spring and dashpot along the gradient of delta, Coulomb friction with a tangential spring
-// that remembers, and a torsion spring against spinning on the spot.
+// From a Touch to forces: normal spring and dashpot along the gradient of delta, Coulomb friction with a
+// tangential spring that remembers, and a torsion spring against spinning on the spot.
 #include "contact/touch.hpp"
 
 namespace packbed {
@@ -13,8 +13,9 @@ struct LawNumbers {
   bool torsion = false;
 };
 
-/// Stiffness of the tangential spring over that of the normal one: 2/7 keeps normal and tangential periods of a solid sphere equal
-/// (Schaefer, Dippel & Wolf, J. Phys. I France 6, 1996); it is also below the stiffness of the softest edge touch.
+/// Stiffness of the tangential spring over that of the normal one: 2/7 keeps normal and tangential periods of
+/// a solid sphere equal (Schaefer, Dippel & Wolf, J. Phys. I France 6, 1996); it is also below the stiffness
+/// of the softest edge touch.
 inline constexpr double kTangentialShare = 2.0 / 7.0;
 
 /// What a touching pair remembers from step to step.
@@ -25,21 +26,22 @@ struct Spring {
 
 /// Motion of a against b, as the kernel's Touch sees it.
 struct Approach {
-  double closing = 0;              // d delta / dt at the end of the step [m/s]
-  double inverse_mass = 0;         // of the motion along the gradient: g M^-1 g [1/kg]
-  Vec3 slide = Vec3::Zero();       // velocity of a against b at the contact point, mid step [m/s]
-  double turn = 0;                 // spin of a against b about the normal, mid step [rad/s]
+  double closing = 0;         // d delta / dt at the end of the step [m/s]
+  double inverse_mass = 0;    // of the motion along the gradient: g M^-1 g [1/kg]
+  Vec3 slide = Vec3::Zero();  // velocity of a against b at the contact point, mid step [m/s]
+  double turn = 0;            // spin of a against b about the normal, mid step [rad/s]
 };
 
 struct ContactForce {
-  double push = 0;                   // multiplies the gradient of Touch: normal force [N]
-  Vec3 friction = Vec3::Zero();      // on a, at the contact point [N]
-  Vec3 moment = Vec3::Zero();        // on a, torsion [N m]
-  double elastic = 0;                // energy stored now [J]
-  double damped = 0, rubbed = 0;     // energy lost in this step [J]
+  double push = 0;                // multiplies the gradient of Touch: normal force [N]
+  Vec3 friction = Vec3::Zero();   // on a, at the contact point [N]
+  Vec3 moment = Vec3::Zero();     // on a, torsion [N m]
+  double elastic = 0;             // energy stored now [J]
+  double damped = 0, rubbed = 0;  // energy lost in this step [J]
 };
 
 /// Advances the spring by one step and gives the force. Never pulls.
-ContactForce resolve(const Touch& touch, const LawNumbers& law, const Approach& approach, double step, Spring& spring);
+ContactForce resolve(const Touch& touch, const LawNumbers& law, const Approach& approach, double step,
+                     Spring& spring);
 
 }  // namespace packbed

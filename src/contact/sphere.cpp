@@ -3,7 +3,8 @@
 namespace packbed {
 namespace {
 
-/// A touch along the unit normal towards a, whose point is `from_a` from the centre of a and `from_b` from that of b.
+/// A touch along the unit normal towards a, whose point is `from_a` from the centre of a and `from_b` from
+/// that of b.
 Touch along(const Vec3& normal, double delta, const Vec3& point) {
   Touch touch;
   if (!(delta > 0)) return touch;
@@ -19,7 +20,8 @@ Touch touch_spheres(const Vec3& a, double radius_a, const Vec3& b, double radius
   const Vec3 apart = a - b;
   const double distance = apart.norm(), delta = radius_a + radius_b - distance;
   if (!(delta > 0)) return {};
-  const Vec3 normal = distance > 0 ? Vec3(apart / distance) : Vec3(Vec3::UnitZ());  // coincident: any way out will do
+  const Vec3 normal =
+      distance > 0 ? Vec3(apart / distance) : Vec3(Vec3::UnitZ());  // coincident: any way out will do
   return along(normal, delta, b + (radius_b - 0.5 * delta) * normal);
 }
 

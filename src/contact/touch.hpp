@@ -1,14 +1,17 @@
 #pragma once
-// The contact law in one picture. Every kernel measures one number, delta, and how it changes when the two bodies move:
+// The contact law in one picture. Every kernel measures one number, delta, and how it changes when the two
+// bodies move:
 //
 //     W = k delta^2 / 2,   force = -dW/dq = k delta (-d delta/dq)
 //
 // delta is the p-norm of the pointwise depth d over the features of both bodies that dip into the other,
 //
-//     delta^p = (1 / L) sum_i w_i d_i^p        (w: length of rim, of line or of sampled surface; L: reference length)
+//     delta^p = (1 / L) sum_i w_i d_i^p        (w: length of rim, of line or of sampled surface; L: reference
+//     length)
 //
-// so it is of degree one in the depth: face, edge and point touches are about equally stiff and one time step serves all.
-// The depth of a point inside a body is smooth, zero on the surface and of unit slope there (see depth()).
+// so it is of degree one in the depth: face, edge and point touches are about equally stiff and one time step
+// serves all. The depth of a point inside a body is smooth, zero on the surface and of unit slope there (see
+// depth()).
 #include <algorithm>
 #include <cmath>
 
@@ -16,8 +19,9 @@
 
 namespace packbed {
 
-/// The exponent p. Larger: stiffness more even between a flat and an edge touch (factor (L / l)^(2/p) for a patch of length l),
-/// but the force follows the deepest point more sharply and the quadrature needs more nodes. 8 = three squarings.
+/// The exponent p. Larger: stiffness more even between a flat and an edge touch (factor (L / l)^(2/p) for a
+/// patch of length l), but the force follows the deepest point more sharply and the quadrature needs more
+/// nodes. 8 = three squarings.
 inline constexpr int kDepthExponent = 8;
 inline double depth_power(double d) {
   const double d2 = d * d, d4 = d2 * d2;
@@ -28,24 +32,26 @@ inline double depth_power_slope(double d) {  // of depth_power
   return 8.0 * d4 * d2 * d;
 }
 
-/// What a kernel says of two bodies. Gradients are per unit of k delta: force on a = k delta gradient, and minus that on b.
+/// What a kernel says of two bodies. Gradients are per unit of k delta: force on a = k delta gradient, and
+/// minus that on b.
 struct Touch {
-  double delta = 0;                  // [m]; 0: apart, and nothing else is set
-  Vec3 gradient = Vec3::Zero();      // -d delta / d position of a [-]
-  Vec3 torque_a = Vec3::Zero();      // -d delta / d rotation of a, about a's centre [m]
-  Vec3 torque_b = Vec3::Zero();      // the same of b, about b's centre [m]
-  Vec3 point = Vec3::Zero();         // centre of pressure, world [m]
-  double patch_radius = 0;           // root mean square distance of the pressure from `point` [m]
-  double depth = 0;                  // greatest distance of any feature point from the surface that it dips through [m]
+  double delta = 0;              // [m]; 0: apart, and nothing else is set
+  Vec3 gradient = Vec3::Zero();  // -d delta / d position of a [-]
+  Vec3 torque_a = Vec3::Zero();  // -d delta / d rotation of a, about a's centre [m]
+  Vec3 torque_b = Vec3::Zero();  // the same of b, about b's centre [m]
+  Vec3 point = Vec3::Zero();     // centre of pressure, world [m]
+  double patch_radius = 0;       // root mean square distance of the pressure from `point` [m]
+  double depth = 0;  // greatest distance of any feature point from the surface that it dips through [m]
 };
 
-/// Gathers weighted depths into a Touch. Works about an origin near both bodies so that torques lose no digits.
+/// Gathers weighted depths into a Touch. Works about an origin near both bodies so that torques lose no
+/// digits.
 class TouchSum {
  public:
   explicit TouchSum(const Vec3& origin) : origin_(origin) {}
 
-  /// A point x (relative to the origin) of depth d and weight w; `slope` is d depth / d x of a's point in b (or minus that of b's in a):
-  /// moving a by dx changes the depth by slope . dx.
+  /// A point x (relative to the origin) of depth d and weight w; `slope` is d depth / d x of a's point in b
+  /// (or minus that of b's in a): moving a by dx changes the depth by slope . dx.
   void add(const Vec3& x, double d, double w, const Vec3& slope) {
     const double power = w * depth_power(d), rate = w * depth_power_slope(d);
     sum_ += power;
@@ -61,9 +67,10 @@ class TouchSum {
     force_ -= rate * slope;
     torque_ -= rate * x.cross(slope);
   }
-  /// Sums that a kernel has made itself: of w d^8, of rate * slope and its torque, of the pressure and its moments.
-  void add_sums(double power, const Vec3& rate_slope, const Vec3& torque, double pressure, const Vec3& pressure_x,
-                double pressure_x2, double deepest) {
+  /// Sums that a kernel has made itself: of w d^8, of rate * slope and its torque, of the pressure and its
+  /// moments.
+  void add_sums(double power, const Vec3& rate_slope, const Vec3& torque, double pressure,
+                const Vec3& pressure_x, double pressure_x2, double deepest) {
     sum_ += power;
     force_ -= rate_slope;
     torque_ -= torque;

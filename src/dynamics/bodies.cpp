@@ -43,7 +43,8 @@ void turn_asymmetric(Quat& q, const Vec3& momentum, const Vec3& inverse, double 
   about(0, 0.5 * step);
 }
 
-void renormalise(Quat& q) {  // one Newton step for 1/|q|: exact to rounding, as |q| is 1 within rounding before
+void renormalise(
+    Quat& q) {  // one Newton step for 1/|q|: exact to rounding, as |q| is 1 within rounding before
   q.coeffs() *= 1.5 - 0.5 * q.squaredNorm();
 }
 
@@ -103,7 +104,8 @@ void leap(Bodies& b, std::size_t i, const Vec3& gravity, double time) {
   b.position[i] += time * b.velocity[i] + (0.5 * time * time) * gravity;
   b.velocity[i] += time * gravity;
   // the symmetric top leaps exactly; another body in steps that turn it by at most a hundredth
-  const double turns = symmetric(b.inertia[i]) ? 1.0 : std::ceil(100.0 * b.spin[i].norm() * time / (2.0 * kPi)) + 1.0;
+  const double turns =
+      symmetric(b.inertia[i]) ? 1.0 : std::ceil(100.0 * b.spin[i].norm() * time / (2.0 * kPi)) + 1.0;
   const Vec3 velocity = b.velocity[i];
   b.velocity[i].setZero();
   for (int k = 0; k < static_cast<int>(turns); ++k) drift(b, i, time / turns);

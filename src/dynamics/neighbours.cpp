@@ -50,7 +50,8 @@ void NeighbourSearch::find(std::span<const std::uint32_t> bodies, const std::vec
   start_.assign(cells + 1, 0);
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3& x = position[bodies[i]];
-    cell_of_[i] = static_cast<std::uint32_t>((cell_at(x, 2) * size[1] + cell_at(x, 1)) * size[0] + cell_at(x, 0));
+    cell_of_[i] =
+        static_cast<std::uint32_t>((cell_at(x, 2) * size[1] + cell_at(x, 1)) * size[0] + cell_at(x, 0));
     ++start_[cell_of_[i] + 1];
   }
   for (std::size_t c = 0; c < cells; ++c) start_[c + 1] += start_[c];
@@ -80,12 +81,14 @@ void NeighbourSearch::find(std::span<const std::uint32_t> bodies, const std::vec
             const auto look = [&](std::uint32_t begin, std::uint32_t end) {
               for (std::uint32_t j = begin; j < end; ++j) {
                 const std::uint32_t b = sorted_[j];
-                if (near(place_[i], place_[j], reach[a] + reach[b]) && !(still[a] && still[b])) out.push_back(ordered(a, b));
+                if (near(place_[i], place_[j], reach[a] + reach[b]) && !(still[a] && still[b]))
+                  out.push_back(ordered(a, b));
               }
             };
             look(i + 1, start_[cell + 1]);
             if (x + 1 < size[0]) look(start_[cell + 1], start_[cell + 2]);
-            const auto look_at_row = [&](std::int64_t row_y, std::int64_t row_z) {  // three cells side by side
+            const auto look_at_row = [&](std::int64_t row_y,
+                                         std::int64_t row_z) {  // three cells side by side
               if (row_y < 0 || row_y >= size[1] || row_z >= size[2]) return;
               const auto row = static_cast<std::size_t>((row_z * size[1] + row_y) * size[0]);
               look(start_[row + static_cast<std::size_t>(std::max<std::int64_t>(0, x - 1))],
@@ -108,7 +111,8 @@ void find_pairs_brute_force(std::span<const std::uint32_t> bodies, const std::ve
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
       const std::uint32_t a = bodies[i], b = bodies[j];
-      if (near(position[a], position[b], reach[a] + reach[b]) && !(still[a] && still[b])) pairs.push_back(ordered(a, b));
+      if (near(position[a], position[b], reach[a] + reach[b]) && !(still[a] && still[b]))
+        pairs.push_back(ordered(a, b));
     }
   std::sort(pairs.begin(), pairs.end());
 }

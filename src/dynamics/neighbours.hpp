@@ -1,5 +1,6 @@
 #pragma once
-// Which bodies may touch before the next search: sorted cells over bounding spheres, each grown by the way that its body may go.
+// Which bodies may touch before the next search: sorted cells over bounding spheres, each grown by the way
+// that its body may go.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,12 +15,13 @@ struct BodyPair {
   bool operator<(const BodyPair& o) const { return a != o.a ? a < o.a : b < o.b; }
 };
 
-/// All pairs of `bodies` (indices) with |x_a - x_b| < reach_a + reach_b, ascending; pairs of two `still` bodies are left out.
-/// reach: bounding radius plus margin [m]. Work space is kept between calls.
+/// All pairs of `bodies` (indices) with |x_a - x_b| < reach_a + reach_b, ascending; pairs of two `still`
+/// bodies are left out. reach: bounding radius plus margin [m]. Work space is kept between calls.
 class NeighbourSearch {
  public:
-  void find(std::span<const std::uint32_t> bodies, const std::vector<Vec3>& position, const std::vector<double>& reach,
-            const std::vector<std::uint8_t>& still, std::vector<BodyPair>& pairs);
+  void find(std::span<const std::uint32_t> bodies, const std::vector<Vec3>& position,
+            const std::vector<double>& reach, const std::vector<std::uint8_t>& still,
+            std::vector<BodyPair>& pairs);
 
  private:
   std::vector<std::uint32_t> cell_of_, start_, sorted_;

@@ -67,14 +67,16 @@ void visit(Archive& io, S& s) {
   io(s.time), io(s.steps);
   auto& b = s.bodies;
   io(b.kind), io(b.inverse_mass), io(b.mass), io(b.inertia), io(b.inverse_inertia), io(b.bounding_radius);
-  io(b.position), io(b.rotation), io(b.axis), io(b.velocity), io(b.angular_momentum), io(b.spin), io(b.travel);
+  io(b.position), io(b.rotation), io(b.axis), io(b.velocity), io(b.angular_momentum), io(b.spin),
+      io(b.travel);
   io(b.force), io(b.torque), io(b.motion);
   io(s.flight_end), io(s.flight_from), io(s.listed_at), io(s.margin), io(s.doze);
   auto& p = s.pairs;
-  io(p.pair), io(p.look_at), io(p.record), io(p.active), io(p.first), io(p.entry), io(p.shore), io(p.shore_stale);
+  io(p.pair), io(p.look_at), io(p.record), io(p.active), io(p.first), io(p.entry), io(p.shore),
+      io(p.shore_stale);
   io(s.awake), io(s.next_landing), io(s.search_due);
   io(s.rest_since), io(s.rest_anchor), io(s.at_rest), io(s.rest_speed), io(s.rest_force), io(s.rest_drift);
-  io(s.waited), io(s.ledger);
+  io(s.waited), io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.ledger);
 }
 
 }  // namespace

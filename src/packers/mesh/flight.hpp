@@ -1,6 +1,6 @@
 #pragma once
-// Bodies in free flight, far from everything: they leap in closed form from one search to the next, cost nothing in
-// between and do not trigger searches.
+// Bodies in free flight, far from everything: they leap in closed form from one search to the next, cost
+// nothing in between and do not trigger searches.
 #include "packers/mesh/model.hpp"
 
 namespace packbed::mesh {

@@ -14,7 +14,8 @@ Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
   return {bodies.position[i], bodies.axis[i], shape.radius, shape.half_height};
 }
 
-Touch touch_container(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t which, double& gap) {
+Touch touch_container(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t which,
+                      double& gap) {
   const Vec3& x = bodies.position[a];
   const Kind& kind = model.kinds[bodies.kind[a]];
   const double tube = model.container.radius;

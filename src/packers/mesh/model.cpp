@@ -12,9 +12,10 @@ namespace {
 
 Kernel kernel_for(const Scene& scene, const Shape& shape) {
   const auto refuse = [&](const char* fits) {
-    throw InputError(scene.case_file + ": kernel", fmt::format("\"{}\" for the {} shape '{}'", scene.kernel,
-                                                               to_string(shape.kind), shape.name),
-                     fits, "kernel = \"auto\" takes the fastest exact one");
+    throw InputError(
+        scene.case_file + ": kernel",
+        fmt::format("\"{}\" for the {} shape '{}'", scene.kernel, to_string(shape.kind), shape.name), fits,
+        "kernel = \"auto\" takes the fastest exact one");
   };
   if (scene.kernel == "field") return Kernel::field;
   if (shape.kind == ShapeClass::sphere) {
@@ -43,7 +44,8 @@ std::vector<Kind> make_kinds(const Scene& scene) {
     kinds.push_back(kind);
   }
   // kinds of different kernels only meet through the general one
-  const bool mixed = std::any_of(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.kernel != kinds[0].kernel; });
+  const bool mixed =
+      std::any_of(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.kernel != kinds[0].kernel; });
   const bool general = mixed || scene.container.kind == ContainerKind::mesh;
   if (general)
     for (Kind& kind : kinds) kind.kernel = Kernel::field;
@@ -64,7 +66,8 @@ double landing_speed(const Scene& scene) {
 /// k from "the hardest impact of one pellet on a wall may overlap by so much".
 double find_stiffness(const Scene& scene, const ContactLaw& law, const std::vector<Kind>& kinds) {
   if (law.stiffness > 0) return law.stiffness;
-  const double speed = std::max(landing_speed(scene), 0.1);  // [m/s]; a bed that is only placed still has to carry itself
+  const double speed =
+      std::max(landing_speed(scene), 0.1);  // [m/s]; a bed that is only placed still has to carry itself
   double stiffness = 0;
   for (const Kind& kind : kinds) {
     const double overlap = law.allowed_overlap * kind.thickness;
@@ -90,8 +93,10 @@ double expected_time(const Scene& scene) {
   if (scene.stepping.duration > 0) return scene.stepping.duration;
   const double g = std::max(1e-9, scene.gravity.norm());
   const double fall = std::sqrt(2.0 * std::max(0.0, scene.feed.drop_height) / g);
-  const double layers = scene.feed.kind == FeedKind::placed ? 0.0
-                        : std::ceil(static_cast<double>(scene.feed.count.value_or(1000)) / std::max(1, scene.feed.per_layer));
+  const double layers = scene.feed.kind == FeedKind::placed
+                            ? 0.0
+                            : std::ceil(static_cast<double>(scene.feed.count.value_or(1000)) /
+                                        std::max(1, scene.feed.per_layer));
   return layers * scene.feed.interval + fall + 0.3;  // and some time to settle
 }
 
@@ -99,9 +104,12 @@ double expected_time(const Scene& scene) {
 
 std::string kernel_name(const Model& model) {
   switch (model.kinds.front().kernel) {
-    case Kernel::sphere: return "sphere";
-    case Kernel::cylinder: return "cylinder";
-    case Kernel::field: return "field";
+    case Kernel::sphere:
+      return "sphere";
+    case Kernel::cylinder:
+      return "cylinder";
+    case Kernel::field:
+      return "field";
   }
   return "";
 }
@@ -125,14 +133,16 @@ Model make_model(const Scene& scene) {
   model.step = scene.stepping.step > 0 ? scene.stepping.step : contact / scene.stepping.steps_per_contact;
   // below six steps a contact the explicit scheme gains energy in deep touches (docs/mesh_packer.md)
   if (model.step > contact / 6.0)
-    throw InputError(scene.case_file + ": stepping.step", fmt::format("{:.3g} us", 1e6 * model.step),
-                     fmt::format("at most {:.3g} us, a sixth of the stiffest contact's time", 1e6 * contact / 6.0),
-                     "leave the step out, or lower contact.stiffness");
+    throw InputError(
+        scene.case_file + ": stepping.step", fmt::format("{:.3g} us", 1e6 * model.step),
+        fmt::format("at most {:.3g} us, a sixth of the stiffest contact's time", 1e6 * contact / 6.0),
+        "leave the step out, or lower contact.stiffness");
   model.skin = scene.stepping.skin > 0 ? scene.stepping.skin : 0.05 * largest;
   // leaps need a floor below and nothing above: a container that is not recognised may have anything anywhere
-  model.may_fly = scene.feed.kind != FeedKind::placed && scene.gravity.norm() > 0 &&
-                  scene.gravity.cross(Vec3::UnitZ()).norm() < 1e-12 * scene.gravity.norm() &&
-                  (scene.container.kind == ContainerKind::tube || scene.container.kind == ContainerKind::plane);
+  model.may_fly =
+      scene.feed.kind != FeedKind::placed && scene.gravity.norm() > 0 &&
+      scene.gravity.cross(Vec3::UnitZ()).norm() < 1e-12 * scene.gravity.norm() &&
+      (scene.container.kind == ContainerKind::tube || scene.container.kind == ContainerKind::plane);
   model.expected_time = expected_time(scene);
   return model;
 }

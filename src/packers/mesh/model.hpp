@@ -1,6 +1,6 @@
 #pragma once
-// The mesh packer's two records: Model never changes in a run, State is all that does (and all that a checkpoint
-// holds).
+// The mesh packer's two records: Model never changes in a run, State is all that does (and all that a
+// checkpoint holds).
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -63,8 +63,8 @@ struct PairRecord {
 };
 
 struct Pairs {
-  std::vector<BodyPair> pair;         // ascending
-  std::vector<double> look_at;        // no touch before the travel of both bodies adds up to this [m]
+  std::vector<BodyPair> pair;   // ascending
+  std::vector<double> look_at;  // no touch before the travel of both bodies adds up to this [m]
   std::vector<PairRecord> record;
   std::vector<std::uint32_t> active;  // those with a body that moves
   // bodies to pairs: entries 2 * pair + side of body i stand at first[i] .. first[i + 1]
@@ -84,9 +84,9 @@ struct Doze {
 
 /// Totals since the start, each added in fixed order.
 struct Ledger {
-  double input = 0, damped = 0, rubbed = 0, removed = 0;          // [J]
-  double peak = 0;                                                // greatest depth, fraction of the thickness
-  double looks = 0, deep_looks = 0, very_deep_looks = 0;          // touching evaluations; deeper than 5 %, 10 %
+  double input = 0, damped = 0, rubbed = 0, removed = 0;  // [J]
+  double peak = 0;                                        // greatest depth, fraction of the thickness
+  double looks = 0, deep_looks = 0, very_deep_looks = 0;  // touching evaluations; deeper than 5 %, 10 %
   double searches = 0, wakes = 0, sleeps = 0;
 };
 
@@ -104,11 +104,14 @@ struct State {
   double next_landing = 0;           // [s]
   std::uint8_t search_due = 1;
   // rest: the present watch, and what the last one found
-  double rest_since = 0;             // [s]
-  std::vector<Vec3> rest_anchor;     // [m]
+  double rest_since = 0;          // [s]
+  std::vector<Vec3> rest_anchor;  // [m]
   std::uint8_t at_rest = 0;
-  double rest_speed = 0, rest_force = 0, rest_drift = 0;  // [m/s], fraction of the weight, fraction of the size
-  std::uint8_t waited = 0;           // feeding has had to wait for room
+  double rest_speed = 0, rest_force = 0,
+         rest_drift = 0;         // [m/s], fraction of the weight, fraction of the size
+  std::uint8_t waited = 0;       // feeding has had to wait for room
+  std::int64_t snapshots = 0;    // taken so far
+  double wall_s = 0, cpu_s = 0;  // spent before the last checkpoint
   Ledger ledger;
 };
 

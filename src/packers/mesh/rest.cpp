@@ -1,4 +1,5 @@
-// Phase rest: three questions, asked together over one window: how fast, how far from balance, how far drifted.
+// Phase rest: three questions, asked together over one window: how fast, how far from balance, how far
+// drifted.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +19,8 @@ void rest(const Model& model, State& state, const Feeder& feeder) {
     speed2 += 2.0 * (kinetic_translation(b, i) + kinetic_rotation(b, i)) / b.mass[i];
     const Vec3 weight = b.mass[i] * model.gravity;
     // sleepers have found their balance when they fell asleep
-    if (b.motion[i] == Motion::awake) unbalanced += (b.force[i] + weight).norm() / std::max(1e-300, weight.norm());
+    if (b.motion[i] == Motion::awake)
+      unbalanced += (b.force[i] + weight).norm() / std::max(1e-300, weight.norm());
     drift = std::max(drift, (b.position[i] - state.rest_anchor[i]).norm() / model.size);
     state.rest_anchor[i] = b.position[i];
   }
@@ -27,7 +29,8 @@ void rest(const Model& model, State& state, const Feeder& feeder) {
   state.rest_force = unbalanced / n;
   state.rest_drift = drift;
   state.at_rest = flying == 0 && state.rest_speed <= model.stepping.rest_speed &&
-                  state.rest_force <= model.stepping.rest_force && state.rest_drift <= model.stepping.rest_drift;
+                  state.rest_force <= model.stepping.rest_force &&
+                  state.rest_drift <= model.stepping.rest_drift;
   state.rest_since = state.time;
 }
 

@@ -8,7 +8,8 @@
 namespace packbed::mesh {
 namespace {
 
-// A body may go this many steps at its present speed before the list is made anew: rarer searches, longer lists.
+// A body may go this many steps at its present speed before the list is made anew: rarer searches, longer
+// lists.
 constexpr double kHorizonSteps = 60;
 // What moves faster is not part of the bed's surface [m/s].
 constexpr double kSurfaceSpeed = 0.2;

@@ -1,10 +1,12 @@
 // Phase sleep: pellets that have settled stand still until something would move them.
 //
-// Falling asleep: over one watch a body has moved and turned by less than a small fraction of its size, and touches something.
-// Waking: a shadow of the body is integrated instead of the body. The change of the net force since it fell asleep drives an
-// oscillator of the period and damping of a contact; the shadow's displacement is how far the body would have gone. A short knock
-// from a far impact moves it little, a lasting push moves it far. What hangs on after its support has gone moves little in the
-// shadow, whose contact is always there: so at the end of each watch the contacts of a sleeper are asked what they still carry.
+// Falling asleep: over one watch a body has moved and turned by less than a small fraction of its size, and
+// touches something. Waking: a shadow of the body is integrated instead of the body. The change of the net
+// force since it fell asleep drives an oscillator of the period and damping of a contact; the shadow's
+// displacement is how far the body would have gone. A short knock from a far impact moves it little, a
+// lasting push moves it far. What hangs on after its support has gone moves little in the shadow, whose
+// contact is always there: so at the end of each watch the contacts of a sleeper are asked what they still
+// carry.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +18,8 @@ namespace {
 
 // Length of one watch, in contact times: several periods of a pellet on its contacts.
 constexpr double kWatchContacts = 60;
-// Contacts that carry less than when the body fell asleep, together by this fraction of its weight, are a lost support.
+// Contacts that carry less than when the body fell asleep, together by this fraction of its weight, are a
+// lost support.
 constexpr double kLostSupport = 0.3;
 
 double size_of(const Model& model, const Bodies& b, std::size_t i) {
@@ -76,7 +79,8 @@ bool shadow_wakes(const Model& model, State& state, std::size_t i) {
   Bodies& b = state.bodies;
   Doze& d = state.doze[i];
   gather(state, i, b.force[i], b.torque[i]);
-  const double stiffness = model.pellet_law.stiffness, omega2 = stiffness * b.inverse_mass[i], omega = std::sqrt(omega2);
+  const double stiffness = model.pellet_law.stiffness, omega2 = stiffness * b.inverse_mass[i],
+               omega = std::sqrt(omega2);
   const double step = model.step;
   const Vec3 push = b.inverse_mass[i] * (b.force[i] - d.force);
   const Vec3 twist = inverse_inertia_times(b, i, b.torque[i] - d.torque);
@@ -127,7 +131,8 @@ void sleep(const Model& model, State& state) {
   std::vector<std::uint8_t> wakes(shore.size());
   parallel_for(shore.size(), 128, [&](std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k)
-      wakes[k] = shadow_wakes(model, state, shore[k]) || (watch_ends && has_lost_support(model, state, shore[k]));
+      wakes[k] =
+          shadow_wakes(model, state, shore[k]) || (watch_ends && has_lost_support(model, state, shore[k]));
   });
   for (std::size_t k = 0; k < shore.size(); ++k)
     if (wakes[k]) wake(state, shore[k]);

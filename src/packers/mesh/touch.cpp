@@ -9,7 +9,8 @@ namespace packbed::mesh {
 namespace {
 
 /// Motion of a against b at the touch. What is not awake stands still; b may be the container.
-Approach approach_of(const Model& model, const Bodies& bodies, const Touch& t, std::uint32_t a, std::uint32_t b) {
+Approach approach_of(const Model& model, const Bodies& bodies, const Touch& t, std::uint32_t a,
+                     std::uint32_t b) {
   Approach out;
   Vec3 spin = Vec3::Zero();
   const double half_step = 0.5 * model.step;
@@ -20,7 +21,8 @@ Approach approach_of(const Model& model, const Bodies& bodies, const Touch& t, s
     // the dashpot acts at the end of the step: velocities there, from the last known accelerations
     const Vec3 velocity =
         bodies.velocity[i] + half_step * (bodies.inverse_mass[i] * bodies.force[i] + model.gravity);
-    out.closing -= side * t.gradient.dot(velocity) + torque.dot(bodies.spin[i]) + half_step * turned.dot(bodies.torque[i]);
+    out.closing -= side * t.gradient.dot(velocity) + torque.dot(bodies.spin[i]) +
+                   half_step * turned.dot(bodies.torque[i]);
     out.slide += side * (bodies.velocity[i] + bodies.spin[i].cross(t.point - bodies.position[i]));
     spin += side * bodies.spin[i];
   };

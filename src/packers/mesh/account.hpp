@@ -1,0 +1,26 @@
+#pragma once
+// What a run tells at its end: the bed, the ledgers, and the audit lines that need the packer's own
+// knowledge.
+#include "bed/packed_bed.hpp"
+#include "bed/run_record.hpp"
+#include "packers/feed.hpp"
+#include "packers/mesh/model.hpp"
+#include "packers/packer.hpp"
+
+namespace packbed::mesh {
+
+/// Energy books now [J]. input = kinetic + potential + elastic + damped + rubbed + removed, but for the error
+/// of stepping.
+struct Energy {
+  double input = 0, kinetic = 0, potential = 0, elastic = 0, damped = 0, rubbed = 0, removed = 0;
+  double error() const;  // |unaccounted| / input
+};
+/// Call with airborne bodies brought to the present time and accounts settled.
+Energy energy_of(const Model& model, const State& state);
+
+PackedBed bed_of(const Scene& scene, const Model& model, const State& state);
+Snapshot snapshot_of(const Model& model, const State& state, std::vector<Pellet>& pellets);
+void fill_record(RunRecord& record, const Scene& scene, const Model& model, const State& state,
+                 const Feeder& feeder);
+
+}  // namespace packbed::mesh
