@@ -20,10 +20,11 @@ struct SampleTable {
 };
 const SampleTable kTable;
 
-/// Root of f between a point where f > 0 and one where f <= 0: Newton, held inside the bracket by bisection.
-/// Newton doubles the digits: after a step of 1e-5 the error is some 1e-10, and d^8 vanishes there anyway.
-double root_between(const TrigQuadratic& f, double inside, double outside, double guess) {
-  double x = guess;
+/// Root of f between its maximum and a point where f <= 0: Newton, held inside the bracket by bisection.
+/// Newton doubles the digits: after a step of a thousandth the end is right to a millionth of the arc, and
+/// d^8 vanishes there anyway.
+double root_between(const TrigQuadratic& f, double top, double outside, double guess) {
+  double x = guess, inside = top;
   for (int i = 0; i < 60; ++i) {
     double s, c;
     sincos_poly(x, s, c);
@@ -32,14 +33,14 @@ double root_between(const TrigQuadratic& f, double inside, double outside, doubl
     double next = x - value / f.slope(c, s);
     const double low = std::min(inside, outside), high = std::max(inside, outside);
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (std::abs(next - x) <= 1e-5 * std::abs(x - guess) + 1e-8 || std::abs(value) <= 0) return next;
+    if (std::abs(next - x) <= 1e-3 * std::abs(x - top)) return next;
     x = next;
   }
   return x;
 }
 
-/// Moves a peak from the best sample to the maximum of f; false when f stays below `floor` there.
-bool climb(const TrigQuadratic& f, Peak& peak, double floor) {
+/// Moves a peak from near the best sample to the maximum of f.
+void climb(const TrigQuadratic& f, Peak& peak) {
   const double low = peak.phi - 2.0 * kPi / kSamples, high = peak.phi + 2.0 * kPi / kSamples;
   for (int i = 0; i < 12; ++i) {
     sincos_poly(peak.phi, peak.sine, peak.cosine);
@@ -47,10 +48,9 @@ bool climb(const TrigQuadratic& f, Peak& peak, double floor) {
     peak.curvature = f.curvature(peak.cosine, peak.sine);
     if (!(peak.curvature < 0)) break;
     const double step = -f.slope(peak.cosine, peak.sine) / peak.curvature;
-    if (std::abs(step) < 1e-6) break;  // the value is then exact to 1e-12
+    if (std::abs(step) < 1e-5) break;  // the value is then exact to 1e-10
     peak.phi = std::clamp(peak.phi + step, low, high);
   }
-  return peak.value > floor;
 }
 
 bool inside(const PeakList& peaks, double x) {
@@ -75,7 +75,7 @@ void span_plane(const Vec3& axis, const Vec3& wish, Vec3& e1, Vec3& e2) {
   e2 = axis.cross(e1);
 }
 
-PeakList positive_peaks(const TrigQuadratic& f, double floor) {
+PeakList positive_peaks(const TrigQuadratic& f) {
   PeakList peaks;
   std::array<double, kSamples> value;
   for (std::size_t i = 0; i < kSamples; ++i) value[i] = f.at(kTable.c[i], kTable.s[i]);
@@ -88,7 +88,8 @@ PeakList positive_peaks(const TrigQuadratic& f, double floor) {
     sincos_poly(peak.phi, peak.sine, peak.cosine);
     peak.value = *highest;
     peak.full = true;
-    if (peak.value > floor) peaks.peak[static_cast<std::size_t>(peaks.size++)] = peak;
+    peaks.highest = peak.value;
+    peaks.peak[static_cast<std::size_t>(peaks.size++)] = peak;
     return peaks;
   }
   for (int i = 0; i < kSamples && peaks.size < 4; ++i) {
@@ -99,10 +100,16 @@ PeakList positive_peaks(const TrigQuadratic& f, double floor) {
     const double bend = before - 2.0 * here + after;
     if (bend < 0) {  // parabola through three samples: where to start, and whether zero can be reached at all
       const double shift = 0.5 * (before - after) / bend;
-      if (here - 0.25 * (before - after) * shift < floor + 0.1 * bend) continue;
+      const double top = here - 0.25 * (before - after) * shift - 0.1 * bend;  // above the true maximum
+      if (top <= 0) {
+        peaks.highest = std::max(peaks.highest, top);
+        continue;
+      }
       peak.phi += shift * kStep;
     }
-    if (!climb(f, peak, floor)) continue;
+    climb(f, peak);
+    peaks.highest = std::max(peaks.highest, peak.value);
+    if (!(peak.value > 0)) continue;
     int left = i, right = i;  // walk out to the first sample below zero on either side
     while (at(left) > 0) --left;
     while (at(right) > 0) ++right;

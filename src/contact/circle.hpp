@@ -8,9 +8,10 @@
 namespace packbed {
 
 struct Circle {
-  Vec3 centre;  // [m]
-  Vec3 e1, e2;  // unit vectors that span its plane; point(phi) = centre + radius (e1 cos phi + e2 sin phi)
-  double radius = 0;  // [m]
+  Vec3 centre = Vec3::Zero();                   // [m]
+  Vec3 e1 = Vec3::UnitX(), e2 = Vec3::UnitY();  // unit vectors that span its plane; point(phi) = centre +
+                                                // radius (e1 cos phi + e2 sin phi)
+  double radius = 0;                            // [m]
 
   Vec3 point(double cosine, double sine) const { return centre + radius * (cosine * e1 + sine * e2); }
 };
@@ -55,10 +56,11 @@ struct Peak {
 struct PeakList {
   std::array<Peak, 4> peak;
   int size = 0;
+  double highest = -1e300;  // greatest value of f found; below zero when there is no peak
 };
 
-/// All peaks higher than `floor` (at least 0). A full turn is one peak, at the largest sample.
-PeakList positive_peaks(const TrigQuadratic& f, double floor = 0);
+/// All peaks above zero. A full turn is one peak, at the largest sample.
+PeakList positive_peaks(const TrigQuadratic& f);
 /// The arc round a peak on which f > 0; `name` is stored as the root of its ends.
 Arc arc_round(const TrigQuadratic& f, const Peak& peak, int name);
 /// Arcs on which f > 0.
@@ -82,6 +84,12 @@ inline constexpr std::array<double, kArcNodes> kEvenNode = [] {
   std::array<double, kArcNodes> node{};
   for (int i = 0; i < kArcNodes; ++i) node[static_cast<std::size_t>(i)] = (2.0 * i + 1.0) / kArcNodes - 1.0;
   return node;
+}();
+
+inline constexpr std::array<double, kArcNodes> kEvenWeight = [] {
+  std::array<double, kArcNodes> weight{};
+  for (double& w : weight) w = 2.0 / kArcNodes;
+  return weight;
 }();
 
 }  // namespace packbed

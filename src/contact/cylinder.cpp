@@ -11,9 +11,12 @@
 namespace packbed {
 namespace {
 
-// Radius of the ring inside each cap, fraction of the cap's. Between 0.5 and 0.8 the stiffness of a coaxial
-// stack changes by 10 %.
-constexpr double kRing = 0.6;
+// Radius of the ring inside each cap, fraction of the cap's: it carries coaxial caps, whose rims lie on one
+// another.
+constexpr double kCapRing = 0.6;
+// Height of the two rings round the side, fraction of the half height: they carry parallel sides whose caps
+// are level.
+constexpr double kSideRing = 0.5;
 // Length that the touch of two crossed sides counts for, fraction of the reference length: with it, it is
 // about as stiff as an edge.
 constexpr double kSideLength = 0.05;
@@ -24,6 +27,9 @@ constexpr double kParallel = 0.03;
 // An arc whose depth stays under this fraction of the greatest depth adds less than its 8th power, 1e-8, and
 // is left out.
 constexpr double kNegligible = 0.1;
+
+// Features: 0 to 5 the circles of a, 6 to 11 those of b, 12 the crossing of the sides.
+constexpr int kFeatures = 13, kCrossing = 12;
 
 enum Root { kSide = 0, kCap = 1 };
 
@@ -67,8 +73,11 @@ struct ArcSums {
 PACKBED_WIDE void sum_arc(const CircleInRod& g, double middle, double half, bool full, ArcSums& out) {
   Nodes power, shift, spread, side, side_c, side_s, axial, axial_c, axial_s, rate, rate_c, rate_s, deep;
   const double per_radius = 1.0 / g.radius, per_height = 1.0 / g.half_height;
+  const double* node = full ? kEvenNode.data() : kGaussNode.data();
+  const double* weight = full ? kEvenWeight.data() : kGaussWeight.data();
+#pragma GCC unroll 1  // unrolled, the loop would not be vectorised
   for (std::size_t i = 0; i < kArcNodes; ++i) {
-    const double xi = full ? kEvenNode[i] : kGaussNode[i], w = full ? 2.0 / kArcNodes : kGaussWeight[i];
+    const double xi = node[i], w = weight[i];
     double s, c;
     sincos_poly(middle + half * xi, s, c);
     const double z = g.z0 + g.z1 * c + g.z2 * s, z_dot = g.z2 * c - g.z1 * s;
@@ -126,26 +135,33 @@ struct Dip {
 };
 
 struct Dips {
-  std::array<Dip, 8> dip;
+  std::array<Dip, kFeatures - 1> dip;
   int size = 0;
   double deepest = 0;  // of the depths found at the peaks: a lower bound of the greatest depth
+  double gap = 1e300;  // way to go before a circle that does not dip can do so
+  std::uint16_t mask = 0;
 };
 
 double depth_of(double side, double cap) {
   return side > 0 && cap > 0 ? side + cap - std::sqrt(side * side + cap * cap) : 0.0;
 }
 
-void find_dip(Dips& dips, const Vec3& centre, const Vec3& axis, double radius, const Rod& rod, double sign) {
+/// Looks at one circle; either it dips, or the gap says how far it is from that.
+void find_dip(Dips& dips, int feature, const Vec3& centre, const Vec3& axis, double radius, const Rod& rod,
+              double sign) {
   const Vec3 w = centre - rod.centre;
   const double z0 = w.dot(rod.axis), cosine = axis.dot(rod.axis);
   const double reach = radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  if (std::abs(z0) - reach >= rod.half_height) return;
   const Vec3 rho = w - z0 * rod.axis;
-  const double rho2 = rho.squaredNorm(), across = rho.dot(axis);
+  const double rho2 = rho.squaredNorm(), distance = std::sqrt(rho2), across = rho.dot(axis);
   // extent of the circle towards the rod's axis: radius sqrt(1 - (m.axis)^2), m = rho / |rho|
   const double inward = radius * std::sqrt(std::max(0.0, rho2 - across * across));
-  if (rho2 - inward >= rod.radius * std::sqrt(rho2)) return;
-
+  const double cap_gap = std::abs(z0) - reach - rod.half_height;
+  const double side_gap = distance > 0 ? distance - inward / distance - rod.radius : -rod.radius;
+  if (cap_gap >= 0 || side_gap >= 0) {
+    dips.gap = std::min(dips.gap, std::max(cap_gap, side_gap));
+    return;
+  }
   Dip& dip = dips.dip[static_cast<std::size_t>(dips.size)];
   dip.circle = {centre, {}, {}, radius};
   span_plane(axis, rod.axis, dip.circle.e1, dip.circle.e2);
@@ -158,9 +174,11 @@ void find_dip(Dips& dips, const Vec3& centre, const Vec3& axis, double radius, c
            radius * rod.axis.dot(e2),
            rod.radius,
            rod.half_height};
-  const double scale = 2.0 * rod.radius;
-  dip.peaks = positive_peaks(dip.g.side(), kNegligible * dips.deepest * scale);
-  if (dip.peaks.size == 0) return;
+  dip.peaks = positive_peaks(dip.g.side());
+  if (dip.peaks.size == 0) {
+    dips.gap = std::min(dips.gap, std::sqrt(rod.radius * rod.radius - dip.peaks.highest) - rod.radius);
+    return;
+  }
   dip.rod = &rod;
   dip.sign = sign;
   dip.meets_cap = std::abs(z0) + reach > rod.half_height;
@@ -168,17 +186,21 @@ void find_dip(Dips& dips, const Vec3& centre, const Vec3& axis, double radius, c
     const Peak& peak = dip.peaks.peak[static_cast<std::size_t>(i)];
     const double z = dip.g.z0 + dip.g.z1 * peak.cosine + dip.g.z2 * peak.sine;
     const double cap = (rod.half_height * rod.half_height - z * z) / (2.0 * rod.half_height);
-    dips.deepest = std::max(dips.deepest, depth_of(peak.value / scale, cap));
+    dips.deepest = std::max(dips.deepest, depth_of(peak.value / (2.0 * rod.radius), cap));
   }
+  dips.mask = static_cast<std::uint16_t>(dips.mask | (1U << feature));
   ++dips.size;
 }
 
-/// Both rims of `rod`, and the rings inside its caps, in `other`.
-void find_dips(Dips& dips, const Rod& rod, const Rod& other, double sign) {
-  for (const double side : {-1.0, 1.0}) {
-    const Vec3 centre = rod.centre + side * rod.half_height * rod.axis;
-    find_dip(dips, centre, rod.axis, rod.radius, other, sign);
-    find_dip(dips, centre, rod.axis, kRing * rod.radius, other, sign);
+/// Both rims of `rod`, the rings inside its caps and those round its side, in `other`: features first to
+/// first + 5.
+void find_dips(Dips& dips, std::uint16_t wanted, int first, const Rod& rod, const Rod& other, double sign) {
+  for (int k = 0; k < 6; ++k) {
+    if (!(wanted >> (first + k) & 1U)) continue;
+    const double end = k < 3 ? -1.0 : 1.0;
+    const double height = k % 3 == 2 ? kSideRing : 1.0, radius = k % 3 == 1 ? kCapRing : 1.0;
+    find_dip(dips, first + k, rod.centre + end * height * rod.half_height * rod.axis, rod.axis,
+             radius * rod.radius, other, sign);
   }
 }
 
@@ -221,30 +243,33 @@ void add_dip(TouchSum& sum, const Dip& dip, double deepest) {
 }
 
 /// The sides of two crossed cylinders, at the common perpendicular of their axes. Closed form; s and t are
-/// its feet on the axes.
-void add_crossing(TouchSum& sum, const Rod& a, const Rod& b, double reference) {
+/// its feet on the axes. Gives the way to go before they can touch there; negative when they do.
+double add_crossing(TouchSum& sum, const Rod& a, const Rod& b, double reference) {
   const Vec3 w = b.centre - a.centre;
   const double c = a.axis.dot(b.axis), sine2 = 1.0 - c * c;
-  if (sine2 < 1e-12) return;
+  if (sine2 < 1e-8) return 0;
   const double wa = w.dot(a.axis), wb = w.dot(b.axis);
   const double s = (wa - c * wb) / sine2, t = (c * wa - wb) / sine2;
-  if (std::abs(s) >= a.half_height || std::abs(t) >= b.half_height) return;
   const Vec3 across = w + t * b.axis - s * a.axis;
   const double radii = a.radius + b.radius;
   const double lateral = (radii * radii - across.squaredNorm()) / (2.0 * radii);
-  if (!(lateral > 0)) return;
+  const double beyond = std::max(std::abs(s) - a.half_height, std::abs(t) - b.half_height);
+  // a foot moves by at most some twelve times the bodies' travel over sine squared
+  if (!(lateral > 0) || beyond >= 0) return std::max(across.norm() - radii, beyond * sine2 / 12.0);
   // depth: R-function of the overlap of the sides with the distances from the four ends
   const double end_a = (a.half_height * a.half_height - s * s) / (2.0 * a.half_height);
   const double end_b = (b.half_height * b.half_height - t * t) / (2.0 * b.half_height);
   const double ends = std::sqrt(end_a * end_a + end_b * end_b), end = end_a + end_b - ends;
   const double norm = std::sqrt(lateral * lateral + end * end), d = lateral + end - norm;
-  const double fade = sine2 / (sine2 + kParallel * kParallel), length = kSideLength * reference;
-  const double rate = length * fade * depth_power_slope(d);
+  // weight: fades for parallel axes, where rims and rings carry, and towards the ends, where a rim takes over
+  const double parallel2 = kParallel * kParallel, fade = sine2 / (sine2 + parallel2);
+  const double share_a = 2.0 * end_a / a.half_height, share_b = 2.0 * end_b / b.half_height;
+  const double length = kSideLength * reference * fade * share_a * share_b, power = length * depth_power(d);
+  const double rate = length * depth_power_slope(d);
   const double by_lateral = rate * (1.0 - lateral / norm), by_end = rate * (1.0 - end / norm);
-  const double by_s = -by_end * (1.0 - end_a / ends) * s / a.half_height;
-  const double by_t = -by_end * (1.0 - end_b / ends) * t / b.half_height;
-  const double by_sine2 = length * depth_power(d) * kParallel * kParallel /
-                          ((sine2 + kParallel * kParallel) * (sine2 + kParallel * kParallel));
+  const double by_s = -(by_end * (1.0 - end_a / ends) + power / end_a) * s / a.half_height;
+  const double by_t = -(by_end * (1.0 - end_b / ends) + power / end_b) * t / b.half_height;
+  const double by_sine2 = power * parallel2 / (sine2 * (sine2 + parallel2));
   // derivatives by w = b - a, and by the axes; s and t follow from across.a = across.b = 0
   const double p = (by_s + by_t * c) / sine2, q = -(by_s * c + by_t) / sine2;
   const double pull = -by_lateral / radii;
@@ -252,43 +277,8 @@ void add_crossing(TouchSum& sum, const Rod& a, const Rod& b, double reference) {
   const Vec3 by_a = -s * pull * across + p * (w + t * b.axis) - q * s * b.axis - 2.0 * c * by_sine2 * b.axis;
   const Vec3 torque = -a.axis.cross(by_a) + a.centre.cross(by_w);
   const Vec3 x = a.centre + s * a.axis + (a.radius / radii) * across;
-  sum.add_sums(length * fade * depth_power(d), -by_w, -torque, rate, rate * x, rate * x.squaredNorm(),
-               std::min(lateral, end));
-}
-
-/// One circle against a field that is a quadratic of the position along it: floor and tube.
-template <class Field>
-void add_circle_outside(TouchSum& sum, const Circle& circle, const TrigQuadratic& depth,
-                        const Field& slope_at) {
-  const ArcList arcs = positive_arcs(depth, 0);
-  for (int i = 0; i < arcs.size; ++i) {
-    const Arc& arc = arcs.arc[static_cast<std::size_t>(i)];
-    const bool full = arc.from_root < 0;
-    const double middle = 0.5 * (arc.from + arc.to), half = 0.5 * (arc.to - arc.from);
-    double power = 0, shift = 0, spread = 0;
-    for (std::size_t k = 0; k < kArcNodes; ++k) {
-      const double xi = full ? kEvenNode[k] : kGaussNode[k], w = full ? 2.0 / kArcNodes : kGaussWeight[k];
-      double s, c;
-      sincos_poly(middle + half * xi, s, c);
-      const double d = depth.at(c, s);
-      if (!(d > 0)) continue;
-      const Vec3 x = circle.point(c, s);
-      sum.add(x, d, circle.radius * half * w, slope_at(x));
-      const double along = circle.radius * half * w * depth_power_slope(d) * depth.slope(c, s);
-      power += circle.radius * w * depth_power(d);
-      shift += along;
-      spread += along * xi;
-    }
-    if (full) continue;
-    for (const double end : {-1.0, 1.0}) {
-      double s, c;
-      sincos_poly(end < 0 ? arc.from : arc.to, s, c);
-      const double turn = depth.slope(c, s);
-      if (std::abs(turn) < 1e-12 * circle.radius) continue;
-      const Vec3 x = circle.point(c, s);
-      sum.add_end(x, -0.5 * (shift + end * spread + end * power) / turn, slope_at(x));
-    }
-  }
+  sum.add_sums(power, -by_w, -torque, rate, rate * x, rate * x.squaredNorm(), std::min(lateral, end));
+  return -1;
 }
 
 double extent(const Rod& rod, const Vec3& direction) {  // half width along a unit vector
@@ -329,56 +319,30 @@ double separation(const Rod& a, const Rod& b) {
   return best;
 }
 
-Touch touch_cylinders(const Rod& a, const Rod& b) {
+Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features) {
   const Vec3 origin = 0.5 * (a.centre + b.centre);
   const Rod near_a{a.centre - origin, a.axis, a.radius, a.half_height};
   const Rod near_b{b.centre - origin, b.axis, b.radius, b.half_height};
   const double reference = 2.0 * kPi * std::min(a.radius, b.radius);
   TouchSum sum(origin);
   Dips dips;
-  find_dips(dips, near_a, near_b, 1.0);
-  find_dips(dips, near_b, near_a, -1.0);
+  find_dips(dips, features.mask, 0, near_a, near_b, 1.0);
+  find_dips(dips, features.mask, 6, near_b, near_a, -1.0);
   for (int i = 0; i < dips.size; ++i) add_dip(sum, dips.dip[static_cast<std::size_t>(i)], dips.deepest);
-  add_crossing(sum, near_a, near_b, reference);
+  if (features.mask >> kCrossing & 1U) {
+    const double gap = add_crossing(sum, near_a, near_b, reference);
+    if (gap < 0)
+      dips.mask = static_cast<std::uint16_t>(dips.mask | (1U << kCrossing));
+    else
+      dips.gap = std::min(dips.gap, gap);
+  }
+  features = {dips.mask, dips.gap};
   return sum.finish(reference, near_a.centre, near_b.centre);
 }
 
-Touch touch_floor(const Rod& rod) {
-  TouchSum sum(rod.centre);
-  for (const double side : {-1.0, 1.0}) {
-    const Vec3 offset = side * rod.half_height * rod.axis;
-    const double height = rod.centre.z() + offset.z();
-    if (height >= rod.radius) continue;
-    Circle circle{offset, {}, {}, rod.radius};
-    span_plane(rod.axis, Vec3(0, 0, 1), circle.e1, circle.e2);
-    const TrigQuadratic depth{-height, -rod.radius * circle.e1.z(), -rod.radius * circle.e2.z(), 0, 0};
-    add_circle_outside(sum, circle, depth, [](const Vec3&) { return Vec3(0, 0, -1); });
-  }
-  return sum.finish(2.0 * kPi * rod.radius, Vec3::Zero(), Vec3::Zero());
-}
-
-Touch touch_tube(const Rod& rod, double tube) {
-  TouchSum sum(rod.centre);
-  const Vec3 centre(rod.centre.x(), rod.centre.y(), 0);
-  for (const double side : {-1.0, 1.0}) {
-    const Vec3 offset = side * rod.half_height * rod.axis;
-    const Vec3 flat(centre.x() + offset.x(), centre.y() + offset.y(), 0);
-    if (flat.norm() + rod.radius <= tube) continue;
-    Circle circle{offset, {}, {}, rod.radius};
-    span_plane(rod.axis, Vec3(0, 0, 1), circle.e1, circle.e2);
-    // (rho^2 - R^2) / 2R along the circle
-    const double r = rod.radius, scale = 0.5 / tube;
-    const double a1 = circle.e1.x() * circle.e1.x() + circle.e1.y() * circle.e1.y();
-    const double a2 = circle.e2.x() * circle.e2.x() + circle.e2.y() * circle.e2.y();
-    const double a12 = circle.e1.x() * circle.e2.x() + circle.e1.y() * circle.e2.y();
-    const TrigQuadratic depth{scale * (flat.squaredNorm() - tube * tube + r * r * a2),
-                              scale * 2 * r * flat.dot(circle.e1), scale * 2 * r * flat.dot(circle.e2),
-                              scale * r * r * (a1 - a2), scale * 2 * r * r * a12};
-    add_circle_outside(sum, circle, depth, [&](const Vec3& x) {
-      return Vec3((x.x() + centre.x()) / tube, (x.y() + centre.y()) / tube, 0);
-    });
-  }
-  return sum.finish(2.0 * kPi * rod.radius, Vec3::Zero(), Vec3::Zero());
+Touch touch_cylinders(const Rod& a, const Rod& b) {
+  RodFeatures all;
+  return touch_cylinders(a, b, all);
 }
 
 }  // namespace packbed

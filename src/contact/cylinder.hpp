@@ -4,14 +4,16 @@
 // other body and nowhere else:
 //
 //     rim in cylinder     four rims; an arc of Gauss nodes between exact end points     edge and face touches
-//     ring in cylinder    a ring inside each cap                                        stacked, coaxial caps
-//     side against side   the common perpendicular of the axes, closed form             crossed cylinders
+//     ring in cylinder    a ring inside each cap, two round the side                    coaxial caps, level
+//     parallel sides side against side   the common perpendicular of the axes, closed form crossed cylinders
 //
 // The depth of a point in a cylinder of radius R and half height h, at distance rho from the axis and height
 // z:
 //     a = (R^2 - rho^2) / 2R,   b = (h^2 - z^2) / 2h,   depth = a + b - sqrt(a^2 + b^2)   for a, b > 0
 // It is smooth inside, never larger than the nearer of the two distances, and of unit slope at the surface
 // (Rvachev's R-function).
+#include <cstdint>
+
 #include "contact/touch.hpp"
 
 namespace packbed {
@@ -28,7 +30,15 @@ struct Rod {
 /// [m].
 double separation(const Rod& a, const Rod& b);
 
+/// Which features of a pair are worth a look. A pair that stays where it is needs only those that touch.
+struct RodFeatures {
+  std::uint16_t mask = 0x1fff;  // in: features to look at; out: those that touch
+  double gap = 0;  // out: way that the surfaces may go before another of those looked at can touch [m]
+};
+
 Touch touch_cylinders(const Rod& a, const Rod& b);
+/// Looks only at the features of the mask.
+Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features);
 /// With the half space z < 0.
 Touch touch_floor(const Rod& rod);
 /// With the outside of an upright tube of inner radius `tube` round the z axis, without end up and down.

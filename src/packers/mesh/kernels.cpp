@@ -27,9 +27,33 @@ Touch touch_container(const Model& model, const Bodies& bodies, std::uint32_t a,
   return which == kFloor ? touch_floor(rod) : touch_tube(rod, tube);
 }
 
+/// Looks at the features that touched last time; at all of them once the bodies may have come into reach of
+/// others.
+Touch touch_rods(const Rod& a, const Rod& b, double travelled, PairRecord& record, double& gap) {
+  RodFeatures features;
+  if (record.features != 0 && travelled < record.features_until) {
+    features.mask = record.features;
+    const Touch touch = touch_cylinders(a, b, features);
+    if (touch.delta > 0) return touch;
+    features = RodFeatures{};
+  }
+  record.features = 0;
+  gap = separation(a, b);
+  if (gap > 0) return {};
+  const Touch touch = touch_cylinders(a, b, features);
+  gap = features.gap;
+  if (touch.delta > 0) {
+    record.features = features.mask;
+    record.features_until = travelled + features.gap;
+  }
+  return touch;
+}
+
 }  // namespace
 
-Touch touch_pair(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t b, double& gap) {
+Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, double travelled,
+                 PairRecord& record, double& gap) {
+  const auto [a, b] = pair;
   if (is_container(b)) return touch_container(model, bodies, a, b, gap);
   const Kind &ka = model.kinds[bodies.kind[a]], &kb = model.kinds[bodies.kind[b]];
   const Vec3 &xa = bodies.position[a], &xb = bodies.position[b];
@@ -37,10 +61,7 @@ Touch touch_pair(const Model& model, const Bodies& bodies, std::uint32_t a, std:
   if (gap > 0) return {};
   if (ka.kernel == Kernel::sphere && kb.kernel == Kernel::sphere)
     return touch_spheres(xa, ka.shape->radius, xb, kb.shape->radius);
-  const Rod ra = rod_of(model, bodies, a), rb = rod_of(model, bodies, b);
-  gap = separation(ra, rb);
-  if (gap > 0) return {};
-  return touch_cylinders(ra, rb);
+  return touch_rods(rod_of(model, bodies, a), rod_of(model, bodies, b), travelled, record, gap);
 }
 
 }  // namespace packbed::mesh

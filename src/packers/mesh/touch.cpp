@@ -55,7 +55,7 @@ void look(const Model& model, State& state, std::uint32_t p) {
   if (travelled < state.pairs.look_at[p]) return;
   PairRecord& r = state.pairs.record[p];
   double gap = 0;
-  const Touch t = touch_pair(model, bodies, a, b, gap);
+  const Touch t = touch_pair(model, bodies, state.pairs.pair[p], travelled, r, gap);
   if (!(t.delta > 0)) {
     if (r.delta > 0) part(r);
     state.pairs.look_at[p] = travelled + std::max(0.0, gap);
