@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/simd.hpp"
 #include "math/trig.hpp"
 
 namespace packbed {
 namespace {
 
-constexpr int kSamples =
-    16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
+constexpr int kSamples = 16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
+constexpr double kStep = 2.0 * kPi / kSamples;
 
 struct SampleTable {
   std::array<double, kSamples> c, s;
@@ -20,9 +21,8 @@ struct SampleTable {
 };
 const SampleTable kTable;
 
-/// Root of f between its maximum and a point where f <= 0: Newton, held inside the bracket by bisection.
-/// Newton doubles the digits: after a step of a thousandth the end is right to a millionth of the arc, and
-/// d^8 vanishes there anyway.
+/// Root of f between its maximum and a point where f <= 0: Newton, held inside the bracket by bisection. Newton doubles the
+/// digits: after a step of a hundredth the end is right to a ten thousandth of the arc, and d^8 vanishes there anyway.
 double root_between(const TrigQuadratic& f, double top, double outside, double guess) {
   double x = guess, inside = top;
   for (int i = 0; i < 60; ++i) {
@@ -33,23 +33,39 @@ double root_between(const TrigQuadratic& f, double top, double outside, double g
     double next = x - value / f.slope(c, s);
     const double low = std::min(inside, outside), high = std::max(inside, outside);
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (std::abs(next - x) <= 1e-3 * std::abs(x - top)) return next;
+    if (std::abs(next - x) <= 1e-2 * std::abs(x - top)) return next;
     x = next;
   }
   return x;
 }
 
-/// Moves a peak from near the best sample to the maximum of f.
-void climb(const TrigQuadratic& f, Peak& peak) {
+/// Moves a peak from the best sample, where the derivatives are known, to the maximum of f: one Halley step, then Newton.
+void climb(const TrigQuadratic& f, Peak& peak, double cosine, double sine) {
   const double low = peak.phi - 2.0 * kPi / kSamples, high = peak.phi + 2.0 * kPi / kSamples;
+  const double slope = f.slope(cosine, sine), bend = f.curvature(cosine, sine);
+  const double halley = 2.0 * bend * bend - slope * f.third(cosine, sine);
+  double step = halley > 0 ? -2.0 * slope * bend / halley : 0.0;
   for (int i = 0; i < 12; ++i) {
-    sincos_poly(peak.phi, peak.sine, peak.cosine);
-    peak.value = f.at(peak.cosine, peak.sine);
-    peak.curvature = f.curvature(peak.cosine, peak.sine);
-    if (!(peak.curvature < 0)) break;
-    const double step = -f.slope(peak.cosine, peak.sine) / peak.curvature;
-    if (std::abs(step) < 1e-5) break;  // the value is then exact to 1e-10
     peak.phi = std::clamp(peak.phi + step, low, high);
+    sincos_poly(peak.phi, peak.sine, peak.cosine);
+    peak.curvature = f.curvature(peak.cosine, peak.sine);
+    const double rise = f.slope(peak.cosine, peak.sine);
+    if (!(peak.curvature < 0)) break;
+    step = -rise / peak.curvature;
+    if (std::abs(step) < 1e-3) {  // the parabola there gives the maximum to 1e-10
+      peak.phi += step;
+      peak.value = f.at(peak.cosine, peak.sine) + 0.5 * rise * step;
+      return;
+    }
+  }
+  peak.value = f.at(peak.cosine, peak.sine);
+}
+
+PACKBED_WIDE void sample(const TrigQuadratic& f, double* value) {
+#pragma GCC unroll 1
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const double c = kTable.c[i], s = kTable.s[i];
+    value[i] = f.k0 + c * (f.k1 + f.k3 * c + f.k4 * s) + f.k2 * s;
   }
 }
 
@@ -77,37 +93,38 @@ void span_plane(const Vec3& axis, const Vec3& wish, Vec3& e1, Vec3& e2) {
 
 PeakList positive_peaks(const TrigQuadratic& f) {
   PeakList peaks;
-  std::array<double, kSamples> value;
-  for (std::size_t i = 0; i < kSamples; ++i) value[i] = f.at(kTable.c[i], kTable.s[i]);
-  const auto at = [&](int i) { return value[static_cast<std::size_t>(i + kSamples) % kSamples]; };
-  const auto [lowest, highest] = std::minmax_element(value.begin(), value.end());
-  constexpr double kStep = 2.0 * kPi / kSamples;
-  if (*lowest > 0) {
-    Peak peak;
-    peak.phi = kStep * static_cast<double>(highest - value.begin());
-    sincos_poly(peak.phi, peak.sine, peak.cosine);
-    peak.value = *highest;
+  std::array<double, kSamples + 2> value;  // [i + 1] is sample i; the ends wrap round
+  sample(f, value.data() + 1);
+  value[0] = value[kSamples];
+  value[kSamples + 1] = value[1];
+  double lowest = value[1];
+  for (double v : value) lowest = std::min(lowest, v);
+  if (lowest > 0) {
+    const std::size_t i = static_cast<std::size_t>(std::max_element(value.begin() + 1, value.end() - 1) - value.begin()) - 1;
+    Peak& peak = peaks.peak[0];
+    peak.phi = kStep * static_cast<double>(i);
+    peak.cosine = kTable.c[i];
+    peak.sine = kTable.s[i];
+    peak.value = value[i + 1];
     peak.full = true;
+    peaks.size = 1;
     peaks.highest = peak.value;
-    peaks.peak[static_cast<std::size_t>(peaks.size++)] = peak;
     return peaks;
   }
+  const auto at = [&](int i) { return value[static_cast<std::size_t>(i + kSamples) % kSamples + 1]; };
   for (int i = 0; i < kSamples && peaks.size < 4; ++i) {
-    const double before = at(i - 1), here = at(i), after = at(i + 1);
+    const std::size_t k = static_cast<std::size_t>(i);
+    const double before = value[k], here = value[k + 1], after = value[k + 2];
     if (here < before || here <= after) continue;  // only at a maximum of the samples
+    const double bend = before - 2.0 * here + after, lean = before - after;
+    const double top = here - 0.125 * lean * lean / bend - 0.1 * bend;  // above the true maximum
+    if (bend < 0 && top <= 0) {
+      peaks.highest = std::max(peaks.highest, top);
+      continue;
+    }
     Peak peak;
     peak.phi = i * kStep;
-    const double bend = before - 2.0 * here + after;
-    if (bend < 0) {  // parabola through three samples: where to start, and whether zero can be reached at all
-      const double shift = 0.5 * (before - after) / bend;
-      const double top = here - 0.25 * (before - after) * shift - 0.1 * bend;  // above the true maximum
-      if (top <= 0) {
-        peaks.highest = std::max(peaks.highest, top);
-        continue;
-      }
-      peak.phi += shift * kStep;
-    }
-    climb(f, peak);
+    climb(f, peak, kTable.c[k], kTable.s[k]);
     peaks.highest = std::max(peaks.highest, peak.value);
     if (!(peak.value > 0)) continue;
     int left = i, right = i;  // walk out to the first sample below zero on either side

@@ -27,6 +27,9 @@ struct TrigQuadratic {
   double slope(double c, double s) const {
     return -s * k1 + c * k2 - 2.0 * k3 * s * c + k4 * (c * c - s * s);
   }
+  double third(double c, double s) const {
+    return s * k1 - c * k2 + 8.0 * k3 * s * c - 4.0 * k4 * (c * c - s * s);
+  }
   double curvature(double c, double s) const {
     return -c * k1 - s * k2 - 2.0 * k3 * (c * c - s * s) - 4.0 * k4 * s * c;
   }
