@@ -210,16 +210,14 @@ class Checker {
   // How many other pieces hold the piece; its sign must be that of material (even) or of a hole (odd).
   bool outward() {
     const Pieces parts = pieces(mesh_);
-    std::vector<TriangleMesh> piece;
+    const std::vector<TriangleMesh> piece = split(mesh_, parts);
     std::vector<double> volume;
-    for (int p = 0; p < parts.count; ++p) {
-      piece.push_back(piece_of(mesh_, parts, p));
-      volume.push_back(mass_properties(piece.back()).volume);
-      const double size = bounding_box(piece.back()).diagonal().norm();
+    for (const TriangleMesh& p : piece) {
+      volume.push_back(mass_properties(p).volume);
+      const double size = bounding_box(p).diagonal().norm();
       if (std::abs(volume.back()) > kFlatSolid * size * size * size) continue;
-      const Vec3 first = piece.back().vertices[0];
-      find(MeshProblem::no_volume, true, 1, first,
-           fmt::format("a closed piece without volume, {}", at(first)));
+      find(MeshProblem::no_volume, true, 1, p.vertices[0],
+           fmt::format("a closed piece without volume, {}", at(p.vertices[0])));
       return false;
     }
     const std::vector<int> depth = depths(piece);

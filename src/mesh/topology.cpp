@@ -117,11 +117,13 @@ Pieces pieces(const TriangleMesh& mesh) {
   return out;
 }
 
-TriangleMesh piece_of(const TriangleMesh& mesh, const Pieces& pieces, int which) {
-  TriangleMesh out;
-  std::map<std::int32_t, std::int32_t> number;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (pieces.of_triangle[t] == which) append(out, mesh.vertices, mesh.triangles[t], number);
+std::vector<TriangleMesh> split(const TriangleMesh& mesh, const Pieces& pieces) {
+  std::vector<TriangleMesh> out(static_cast<std::size_t>(pieces.count));
+  std::vector<std::map<std::int32_t, std::int32_t>> number(out.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto p = static_cast<std::size_t>(pieces.of_triangle[t]);
+    append(out[p], mesh.vertices, mesh.triangles[t], number[p]);
+  }
   return out;
 }
 
@@ -165,8 +167,7 @@ std::vector<int> depths(const std::vector<TriangleMesh>& pieces) {
 bool orient_outward(TriangleMesh& mesh) {
   if (orient_alike(mesh) < 0) return false;
   const Pieces parts = pieces(mesh);
-  std::vector<TriangleMesh> each;
-  for (int p = 0; p < parts.count; ++p) each.push_back(piece_of(mesh, parts, p));
+  const std::vector<TriangleMesh> each = split(mesh, parts);
   const std::vector<int> depth = depths(each);
   std::vector<bool> wrong;
   for (std::size_t p = 0; p < each.size(); ++p)

@@ -34,8 +34,8 @@ struct Pieces {
 };
 /// Parts of a mesh that are connected through edges.
 Pieces pieces(const TriangleMesh& mesh);
-/// One piece with the vertices that it uses.
-TriangleMesh piece_of(const TriangleMesh& mesh, const Pieces& pieces, int which);
+/// Each piece with the vertices that it uses.
+std::vector<TriangleMesh> split(const TriangleMesh& mesh, const Pieces& pieces);
 
 /// Turns triangles so that neighbours agree, each piece as its first triangle has it. Returns how many were
 /// turned, or -1 when a piece has but one side (as a Möbius strip) or an edge has more than two triangles.

@@ -53,7 +53,7 @@ TEST(Topology, PiecesAndOrientation) {
   TriangleMesh two =
       merged(box_mesh(Vec3::Zero(), Vec3::Ones()), box_mesh(Vec3::Constant(2), Vec3::Constant(3)));
   EXPECT_EQ(pieces(two).count, 2);
-  EXPECT_EQ(piece_of(two, pieces(two), 1).vertices.size(), 8u);
+  EXPECT_EQ(split(two, pieces(two))[1].vertices.size(), 8u);
   EXPECT_EQ(orient_alike(two), 0);
   std::swap(two.triangles[5][0], two.triangles[5][1]);
   EXPECT_EQ(orient_alike(two), 1);

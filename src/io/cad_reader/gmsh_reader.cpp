@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kTetSides = 12;  // of a circle, for tetrahedra whose size nobody gave
 
+constexpr double kSmallestFacet = 1.0 / 200;  // of the diagonal, for chord errors that ask for smaller ones
+
 struct Session {
   Session() {
     gmsh::initialize();
@@ -164,6 +166,17 @@ double smallest_extent(const std::vector<Vec3>& vertices) {
   return box.sizes().minCoeff();
 }
 
+// [mm]. A rounding of a thousandth of the body needs no sixty facets of its own.
+double smallest_facet(const gmsh::vectorpair& solids) {
+  Box3 box;
+  for (const auto& [dim, tag] : solids) {
+    double a[6];
+    gmsh::model::getBoundingBox(dim, tag, a[0], a[1], a[2], a[3], a[4], a[5]);
+    box.extend(Vec3(a[0], a[1], a[2])).extend(Vec3(a[3], a[4], a[5]));
+  }
+  return kSmallestFacet * box.diagonal().norm();
+}
+
 }  // namespace
 
 CadMessage read_step(const CadRequest& request) {
@@ -186,6 +199,7 @@ CadMessage read_step(const CadRequest& request) {
   measure(solids, out);
   const double facets = std::ceil(kPi / std::acos(1 - std::clamp(request.chord_error, 1e-6, 0.5)));
   gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", facets);
+  gmsh::option::setNumber("Mesh.MeshSizeMin", smallest_facet(solids));
   gmsh::model::mesh::generate(2);
   out.mesh = triangles_now(Nodes(kMillimetre), out);
   if (!orient_outward(out.mesh)) throw Unusable("faces that do not close to solids");
