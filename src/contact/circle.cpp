@@ -9,7 +9,8 @@
 namespace packbed {
 namespace {
 
-constexpr int kSamples = 16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
+constexpr int kSamples =
+    16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
 constexpr double kStep = 2.0 * kPi / kSamples;
 
 struct SampleTable {
@@ -21,8 +22,9 @@ struct SampleTable {
 };
 const SampleTable kTable;
 
-/// Root of f between its maximum and a point where f <= 0: Newton, held inside the bracket by bisection. Newton doubles the
-/// digits: after a step of a hundredth the end is right to a ten thousandth of the arc, and d^8 vanishes there anyway.
+/// Root of f between its maximum and a point where f <= 0: Newton, held inside the bracket by bisection.
+/// Newton doubles the digits: after a step of a hundredth the end is right to a ten thousandth of the arc,
+/// and d^8 vanishes there anyway.
 double root_between(const TrigQuadratic& f, double top, double outside, double guess) {
   double x = guess, inside = top;
   for (int i = 0; i < 60; ++i) {
@@ -39,7 +41,8 @@ double root_between(const TrigQuadratic& f, double top, double outside, double g
   return x;
 }
 
-/// Moves a peak from the best sample, where the derivatives are known, to the maximum of f: one Halley step, then Newton.
+/// Moves a peak from the best sample, where the derivatives are known, to the maximum of f: one Halley step,
+/// then Newton.
 void climb(const TrigQuadratic& f, Peak& peak, double cosine, double sine) {
   const double low = peak.phi - 2.0 * kPi / kSamples, high = peak.phi + 2.0 * kPi / kSamples;
   const double slope = f.slope(cosine, sine), bend = f.curvature(cosine, sine);
@@ -100,7 +103,8 @@ PeakList positive_peaks(const TrigQuadratic& f) {
   double lowest = value[1];
   for (double v : value) lowest = std::min(lowest, v);
   if (lowest > 0) {
-    const std::size_t i = static_cast<std::size_t>(std::max_element(value.begin() + 1, value.end() - 1) - value.begin()) - 1;
+    const std::size_t i =
+        static_cast<std::size_t>(std::max_element(value.begin() + 1, value.end() - 1) - value.begin()) - 1;
     Peak& peak = peaks.peak[0];
     peak.phi = kStep * static_cast<double>(i);
     peak.cosine = kTable.c[i];
