@@ -176,12 +176,12 @@ TEST(Profiles, FromVoxelsApproachTheExactOnes) {
   AnalysisWish wish;
   wish.to_diameters = 12;
   double axial_before = 1, radial_before = 1, bulk_last = 1;
-  for (const double pitch : {0.4e-3, 0.1e-3}) {
+  for (const double pitch : {0.4e-3, 0.2e-3, 0.1e-3, 0.05e-3}) {
     wish.voxel = pitch;
     const AnalysisResult r = analyse_bed(bed, wish);
     const double axial = rms(r.axial, 0), radial = rms(r.radial, 12e-3),
                  bulk = std::abs(r.bulk.packing_density - r.bulk.exact);
-    std::printf("voxel %.1f mm: rms voxel - exact: axial %.1e, radial %.1e; bulk %.1e\n", 1e3 * pitch, axial,
+    std::printf("voxel %.2f mm: rms voxel - exact: axial %.1e, radial %.1e; bulk %.1e\n", 1e3 * pitch, axial,
                 radial, bulk);
     EXPECT_LT(axial, axial_before);
     EXPECT_LT(radial, radial_before);
