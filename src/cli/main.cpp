@@ -80,7 +80,8 @@ void add_export(CLI::App& app, int& code) {
   auto o = std::make_shared<ExportOptions>();
   CLI::App* c = app.add_subcommand("export", "a bed as a file of another kind");
   c->add_option("bed", o->bed, "bed.h5 or result folder")->required();
-  c->add_option("--to", o->to, "stl | vtu | csv | obj")->check(CLI::IsMember({"stl", "vtu", "csv", "obj"}));
+  c->add_option("--to", o->to, "stl | vtu | csv | obj | contacts")
+      ->check(CLI::IsMember({"stl", "vtu", "csv", "obj", "contacts"}));
   c->add_option("--out", o->out, "file to write (default: bed.<kind> beside the bed)");
   c->footer("Example:\n  packbed export results/quick --to stl --out bed.stl");
   c->callback([o, &code] { code = export_bed(*o); });

@@ -20,8 +20,8 @@ PackedBed read_bed(const std::string& path_or_folder);
 /// The record that the bed was written with, if any; errors as read_bed.
 std::optional<RunRecord> read_run_record(const std::string& path_or_folder);
 
-/// id,shape,x_m,y_m,z_m,qw,qx,qy,qz,scale: centre of mass and rotation from the shape's own frame; numbers
-/// with as many digits as give back the same double.
+/// id,shape,x_m,y_m,z_m,qw,qx,qy,qz,scale: index of the shape, centre of mass and rotation from the shape's
+/// own frame; numbers with as many digits as give back the same double.
 void write_poses_csv(const std::string& path, const PackedBed& bed);
 
 /// a,b,x_m,y_m,z_m,fx_N,fy_N,fz_N,overlap_m: force on a; b is -1 for the container.

@@ -14,8 +14,8 @@ void write_poses_csv(const std::string& path, const PackedBed& bed) {
   for (const Pellet& p : bed.pellets) {
     const Vec3& x = p.pose.position;
     const Quat& q = p.pose.rotation;
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{}\n", p.id,
-                   bed.shapes[p.shape]->name, x.x(), x.y(), x.z(), q.w(), q.x(), q.y(), q.z(), p.scale);
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{}\n", p.id, p.shape, x.x(), x.y(),
+                   x.z(), q.w(), q.x(), q.y(), q.z(), p.scale);
   }
   write_atomically(path, out);
 }

@@ -77,7 +77,24 @@ ExportKind export_kind_from(const std::string& word) {
   if (word == "vtu") return ExportKind::vtu;
   if (word == "csv") return ExportKind::csv;
   if (word == "obj") return ExportKind::obj;
-  throw InputError("--to", word, "stl, vtu, csv, obj");
+  if (word == "contacts") return ExportKind::contacts;
+  throw InputError("--to", word, "stl, vtu, csv, obj, contacts");
+}
+
+std::string ending(ExportKind kind) {
+  switch (kind) {
+    case ExportKind::stl:
+      return ".stl";
+    case ExportKind::vtu:
+      return ".vtu";
+    case ExportKind::csv:
+      return ".csv";
+    case ExportKind::obj:
+      return ".obj";
+    case ExportKind::contacts:
+      return "_contacts.csv";
+  }
+  return "";
 }
 
 void export_bed(const PackedBed& bed, ExportKind kind, const std::string& path) {
@@ -90,6 +107,8 @@ void export_bed(const PackedBed& bed, ExportKind kind, const std::string& path) 
       return write_poses_csv(path, bed);
     case ExportKind::obj:
       return write_obj(path, bed);
+    case ExportKind::contacts:
+      return write_contacts_csv(path, bed);
   }
 }
 

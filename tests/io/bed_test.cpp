@@ -11,6 +11,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/hdf5_image.hpp"
+#include "io/placed_csv.hpp"
 #include "io/sample_bed.hpp"
 #include "io/summary.hpp"
 #include "io/temporary_folder.hpp"
@@ -218,7 +219,7 @@ TEST(Bed, PosesTableHasTheAgreedColumnsAndEveryDigit) {
     for (std::string c; std::getline(cells, c, ',');) cell.push_back(c);
     ASSERT_EQ(cell.size(), 10u);
     EXPECT_EQ(cell[0], std::to_string(p.id));
-    EXPECT_EQ(cell[1], bed.shapes[p.shape]->name);
+    EXPECT_EQ(cell[1], std::to_string(p.shape));
     for (std::size_t k = 0; k < 3; ++k)
       expect_same_bits(std::strtod(cell[2 + k].c_str(), nullptr), p.pose.position[static_cast<int>(k)]);
     expect_same_bits(std::strtod(cell[5].c_str(), nullptr), p.pose.rotation.w());
@@ -226,6 +227,19 @@ TEST(Bed, PosesTableHasTheAgreedColumnsAndEveryDigit) {
     expect_same_bits(std::strtod(cell[9].c_str(), nullptr), p.scale);
   }
   EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(Bed, PosesTableCanBePlacedAgain) {
+  const TemporaryFolder folder;
+  PackedBed bed = sample_bed(30);
+  write_poses_csv(folder / "poses.csv", bed);
+  const std::vector<PlacedPellet> placed = read_placed_csv(folder / "poses.csv");
+  ASSERT_EQ(placed.size(), bed.pellets.size());
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    EXPECT_EQ(placed[i].kind, bed.pellets[i].shape);
+    EXPECT_EQ(placed[i].pose.position, bed.pellets[i].pose.position);
+    EXPECT_LT(placed[i].pose.rotation.angularDistance(bed.pellets[i].pose.rotation), 1e-15);
+  }
 }
 
 TEST(Bed, ContactsTableNamesTheContainerMinusOne) {
