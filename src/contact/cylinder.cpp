@@ -336,6 +336,8 @@ Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features) {
     else
       dips.gap = std::min(dips.gap, gap);
   }
+  // a circle inside the side but beyond the caps touches nothing, and may at any moment
+  if (dips.size > 0 && sum.empty()) dips.gap = 0;
   features = {dips.mask, dips.gap};
   return sum.finish(reference, near_a.centre, near_b.centre);
 }
