@@ -12,6 +12,9 @@ namespace {
 constexpr int kSamples =
     16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
 constexpr double kStep = 2.0 * kPi / kSamples;
+// Half width [rad] under which the ends of an arc come from the Taylor series at its peak: right to a few
+// thousandths of the arc, where d^8 has long vanished.
+constexpr double kNarrow = 0.2;
 
 struct SampleTable {
   std::array<double, kSamples> c, s;
@@ -41,27 +44,30 @@ double root_between(const TrigQuadratic& f, double top, double outside, double g
   return x;
 }
 
-/// Moves a peak from the best sample, where the derivatives are known, to the maximum of f: one Halley step,
-/// then Newton.
-void climb(const TrigQuadratic& f, Peak& peak, double cosine, double sine) {
-  const double low = peak.phi - 2.0 * kPi / kSamples, high = peak.phi + 2.0 * kPi / kSamples;
-  const double slope = f.slope(cosine, sine), bend = f.curvature(cosine, sine);
-  const double halley = 2.0 * bend * bend - slope * f.third(cosine, sine);
-  double step = halley > 0 ? -2.0 * slope * bend / halley : 0.0;
+/// Newton from peak.phi - step towards the maximum, inside [low, high].
+void climb(const TrigQuadratic& f, Peak& peak, double step, double low, double high) {
   for (int i = 0; i < 12; ++i) {
     peak.phi = std::clamp(peak.phi + step, low, high);
     sincos_poly(peak.phi, peak.sine, peak.cosine);
     peak.curvature = f.curvature(peak.cosine, peak.sine);
-    const double rise = f.slope(peak.cosine, peak.sine);
+    peak.value = f.at(peak.cosine, peak.sine);
     if (!(peak.curvature < 0)) break;
+    const double rise = f.slope(peak.cosine, peak.sine);
     step = -rise / peak.curvature;
     if (std::abs(step) < 1e-3) {  // the parabola there gives the maximum to 1e-10
       peak.phi += step;
-      peak.value = f.at(peak.cosine, peak.sine) + 0.5 * rise * step;
-      return;
+      peak.value += 0.5 * rise * step;
+      break;
     }
   }
-  peak.value = f.at(peak.cosine, peak.sine);
+  peak.third = f.third(peak.cosine, peak.sine);
+}
+
+/// The first step from the best sample, where the derivatives are known: Halley's.
+double first_step(const TrigQuadratic& f, double cosine, double sine) {
+  const double slope = f.slope(cosine, sine), bend = f.curvature(cosine, sine);
+  const double denominator = 2.0 * bend * bend - slope * f.third(cosine, sine);
+  return denominator > 0 ? -2.0 * slope * bend / denominator : 0.0;
 }
 
 PACKBED_WIDE void sample(const TrigQuadratic& f, double* value) {
@@ -112,7 +118,6 @@ PeakList positive_peaks(const TrigQuadratic& f) {
     peak.value = value[i + 1];
     peak.full = true;
     peaks.size = 1;
-    peaks.highest = peak.value;
     return peaks;
   }
   const auto at = [&](int i) { return value[static_cast<std::size_t>(i + kSamples) % kSamples + 1]; };
@@ -123,14 +128,16 @@ PeakList positive_peaks(const TrigQuadratic& f) {
     const double bend = before - 2.0 * here + after, lean = before - after;
     const double top = here - 0.125 * lean * lean / bend - 0.1 * bend;  // above the true maximum
     if (bend < 0 && top <= 0) {
-      peaks.highest = std::max(peaks.highest, top);
+      peaks.below = std::max(peaks.below, top);
       continue;
     }
     Peak peak;
     peak.phi = i * kStep;
-    climb(f, peak, kTable.c[k], kTable.s[k]);
-    peaks.highest = std::max(peaks.highest, peak.value);
-    if (!(peak.value > 0)) continue;
+    climb(f, peak, first_step(f, kTable.c[k], kTable.s[k]), peak.phi - kStep, peak.phi + kStep);
+    if (!(peak.value > 0)) {
+      peaks.below = std::max(peaks.below, peak.value);
+      continue;
+    }
     int left = i, right = i;  // walk out to the first sample below zero on either side
     while (at(left) > 0) --left;
     while (at(right) > 0) ++right;
@@ -143,9 +150,20 @@ PeakList positive_peaks(const TrigQuadratic& f) {
   return peaks;
 }
 
+bool follow_peak(const TrigQuadratic& f, double phi, Peak& peak) {
+  peak.phi = phi;
+  climb(f, peak, 0.0, phi - 0.2, phi + 0.2);
+  if (!(peak.value > 0 && peak.curvature < 0)) return false;
+  return 2.0 * peak.value < -kNarrow * kNarrow * peak.curvature && std::abs(peak.phi - phi) < 0.15;
+}
+
 Arc arc_round(const TrigQuadratic& f, const Peak& peak, int name) {
   if (peak.full) return {0, 2.0 * kPi, -1, -1};
   const double top = peak.phi, reach = std::sqrt(2.0 * peak.value / std::max(1e-300, -peak.curvature));
+  if (reach < kNarrow) {  // the cubic there shifts both ends of the parabola by the same way
+    const double shift = -peak.third * reach * reach / (6.0 * peak.curvature);
+    return {top - reach + shift, top + reach + shift, name, name};
+  }
   const double from = top - reach > peak.low ? top - reach : 0.5 * (peak.low + top);
   const double to = top + reach < peak.high ? top + reach : 0.5 * (peak.high + top);
   return {root_between(f, top, peak.low, from), root_between(f, top, peak.high, to), name, name};

@@ -50,20 +50,23 @@ struct ArcList {
 
 /// A maximum of a TrigQuadratic where it is positive, with a bracket that holds both ends of its arc.
 struct Peak {
-  double phi = 0, cosine = 1, sine = 0;  // where it is
-  double value = 0, curvature = 0;       // f and f'' there
-  double low = 0, high = 0;              // angles with f <= 0 on either side; no use when `full`
-  bool full = false;                     // positive all round
+  double phi = 0, cosine = 1, sine = 0;        // where it is
+  double value = 0, curvature = 0, third = 0;  // f, f'' and f''' there
+  double low = 0, high = 0;                    // angles with f <= 0 on either side; no use when `full`
+  bool full = false;                           // positive all round
 };
 
 struct PeakList {
   std::array<Peak, 4> peak;
   int size = 0;
-  double highest = -1e300;  // greatest value of f found; below zero when there is no peak
+  double below = -1e300;  // greatest maximum that stays below zero, if any
 };
 
 /// All peaks above zero. A full turn is one peak, at the largest sample.
 PeakList positive_peaks(const TrigQuadratic& f);
+/// Follows the peak of an earlier look that was at `phi` then. False when it has gone below zero, or too far
+/// to be sure.
+bool follow_peak(const TrigQuadratic& f, double phi, Peak& peak);
 /// The arc round a peak on which f > 0; `name` is stored as the root of its ends.
 Arc arc_round(const TrigQuadratic& f, const Peak& peak, int name);
 /// Arcs on which f > 0.

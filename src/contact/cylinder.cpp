@@ -130,8 +130,8 @@ struct Dip {
   CircleInRod g;
   PeakList peaks;
   const Rod* rod = nullptr;
+  int feature = 0;
   double sign = 0;  // +1 when the circle belongs to a, -1 when to b
-  bool meets_cap = false;
 };
 
 struct Dips {
@@ -140,22 +140,73 @@ struct Dips {
   double deepest = 0;  // of the depths found at the peaks: a lower bound of the greatest depth
   double gap = 1e300;  // way to go before a circle that does not dip can do so
   std::uint16_t mask = 0;
+
+  void clear() {
+    size = 0;
+    deepest = 0;
+    gap = 1e300;
+    mask = 0;
+  }
 };
 
 double depth_of(double side, double cap) {
   return side > 0 && cap > 0 ? side + cap - std::sqrt(side * side + cap * cap) : 0.0;
 }
 
+/// One of the twelve circles of a pair: 0 to 5 the rims, rings in the caps and rings round the side of a; 6
+/// to 11 those of b.
+struct Feature {
+  Vec3 centre;
+  double radius;
+  const Rod *owner, *other;
+};
+
+Feature circle_of(int feature, const Rod& a, const Rod& b) {
+  const bool of_a = feature < 6;
+  const Rod& rod = of_a ? a : b;
+  const int k = of_a ? feature : feature - 6;
+  const double end = k < 3 ? -1.0 : 1.0;
+  const double height = k % 3 == 2 ? kSideRing : 1.0, radius = k % 3 == 1 ? kCapRing : 1.0;
+  return {rod.centre + end * height * rod.half_height * rod.axis, radius * rod.radius, &rod, of_a ? &b : &a};
+}
+
+/// Everything of a dip but its peaks.
+void set_dip(Dip& dip, int feature, const Feature& f) {
+  const Rod& rod = *f.other;
+  const Vec3 w = f.centre - rod.centre;
+  dip.circle.centre = f.centre;
+  dip.circle.radius = f.radius;
+  span_plane(f.owner->axis, rod.axis, dip.circle.e1, dip.circle.e2);
+  const Vec3 &e1 = dip.circle.e1, &e2 = dip.circle.e2;
+  dip.g = {w.squaredNorm() + f.radius * f.radius,
+           2 * f.radius * w.dot(e1),
+           2 * f.radius * w.dot(e2),
+           w.dot(rod.axis),
+           f.radius * rod.axis.dot(e1),
+           f.radius * rod.axis.dot(e2),
+           rod.radius,
+           rod.half_height};
+  dip.rod = &rod;
+  dip.feature = feature;
+  dip.sign = feature < 6 ? 1.0 : -1.0;
+}
+
+double depth_at(const CircleInRod& g, const Peak& peak) {
+  const double z = g.z0 + g.z1 * peak.cosine + g.z2 * peak.sine;
+  return depth_of(peak.value / (2.0 * g.radius),
+                  (g.half_height * g.half_height - z * z) / (2.0 * g.half_height));
+}
+
 /// Looks at one circle; either it dips, or the gap says how far it is from that.
-void find_dip(Dips& dips, int feature, const Vec3& centre, const Vec3& axis, double radius, const Rod& rod,
-              double sign) {
-  const Vec3 w = centre - rod.centre;
+void find_dip(Dips& dips, int feature, const Feature& f) {
+  const Rod& rod = *f.other;
+  const Vec3 w = f.centre - rod.centre, &axis = f.owner->axis;
   const double z0 = w.dot(rod.axis), cosine = axis.dot(rod.axis);
-  const double reach = radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  const double reach = f.radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   const Vec3 rho = w - z0 * rod.axis;
   const double rho2 = rho.squaredNorm(), distance = std::sqrt(rho2), across = rho.dot(axis);
   // extent of the circle towards the rod's axis: radius sqrt(1 - (m.axis)^2), m = rho / |rho|
-  const double inward = radius * std::sqrt(std::max(0.0, rho2 - across * across));
+  const double inward = f.radius * std::sqrt(std::max(0.0, rho2 - across * across));
   const double cap_gap = std::abs(z0) - reach - rod.half_height;
   const double side_gap = distance > 0 ? distance - inward / distance - rod.radius : -rod.radius;
   if (cap_gap >= 0 || side_gap >= 0) {
@@ -163,44 +214,44 @@ void find_dip(Dips& dips, int feature, const Vec3& centre, const Vec3& axis, dou
     return;
   }
   Dip& dip = dips.dip[static_cast<std::size_t>(dips.size)];
-  dip.circle = {centre, {}, {}, radius};
-  span_plane(axis, rod.axis, dip.circle.e1, dip.circle.e2);
-  const Vec3 &e1 = dip.circle.e1, &e2 = dip.circle.e2;
-  dip.g = {w.squaredNorm() + radius * radius,
-           2 * radius * w.dot(e1),
-           2 * radius * w.dot(e2),
-           z0,
-           radius * rod.axis.dot(e1),
-           radius * rod.axis.dot(e2),
-           rod.radius,
-           rod.half_height};
+  set_dip(dip, feature, f);
   dip.peaks = positive_peaks(dip.g.side());
-  if (dip.peaks.size == 0) {
-    dips.gap = std::min(dips.gap, std::sqrt(rod.radius * rod.radius - dip.peaks.highest) - rod.radius);
-    return;
-  }
-  dip.rod = &rod;
-  dip.sign = sign;
-  dip.meets_cap = std::abs(z0) + reach > rod.half_height;
-  for (int i = 0; i < dip.peaks.size; ++i) {
-    const Peak& peak = dip.peaks.peak[static_cast<std::size_t>(i)];
-    const double z = dip.g.z0 + dip.g.z1 * peak.cosine + dip.g.z2 * peak.sine;
-    const double cap = (rod.half_height * rod.half_height - z * z) / (2.0 * rod.half_height);
-    dips.deepest = std::max(dips.deepest, depth_of(peak.value / (2.0 * rod.radius), cap));
-  }
+  if (dip.peaks.below > -1e299)
+    dips.gap = std::min(dips.gap, std::sqrt(rod.radius * rod.radius - dip.peaks.below) - rod.radius);
+  if (dip.peaks.size == 0) return;
+  for (int i = 0; i < dip.peaks.size; ++i)
+    dips.deepest = std::max(dips.deepest, depth_at(dip.g, dip.peaks.peak[static_cast<std::size_t>(i)]));
   dips.mask = static_cast<std::uint16_t>(dips.mask | (1U << feature));
   ++dips.size;
 }
 
-/// Both rims of `rod`, the rings inside its caps and those round its side, in `other`: features first to
-/// first + 5.
-void find_dips(Dips& dips, std::uint16_t wanted, int first, const Rod& rod, const Rod& other, double sign) {
-  for (int k = 0; k < 6; ++k) {
-    if (!(wanted >> (first + k) & 1U)) continue;
-    const double end = k < 3 ? -1.0 : 1.0;
-    const double height = k % 3 == 2 ? kSideRing : 1.0, radius = k % 3 == 1 ? kCapRing : 1.0;
-    find_dip(dips, first + k, rod.centre + end * height * rod.half_height * rod.axis, rod.axis,
-             radius * rod.radius, other, sign);
+/// The dips of last time, each followed from where its peak was. False when one is lost.
+bool follow_dips(Dips& dips, RodFeatures& features, const Rod& a, const Rod& b) {
+  for (int i = 0; i < features.tracked; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    Dip& dip = dips.dip[static_cast<std::size_t>(dips.size++)];
+    set_dip(dip, features.circle[k], circle_of(features.circle[k], a, b));
+    if (!follow_peak(dip.g.side(), features.phi[k], dip.peaks.peak[0])) return false;
+    dip.peaks.size = 1;
+    features.phi[k] = dip.peaks.peak[0].phi;
+    dips.deepest = std::max(dips.deepest, depth_at(dip.g, dip.peaks.peak[0]));
+  }
+  return true;
+}
+
+/// Whether all dips are of the simple kind that can be followed, and where they are.
+void track(const Dips& dips, RodFeatures& features) {
+  features.tracked = 0;
+  if (dips.size > static_cast<int>(features.phi.size())) return;
+  for (int i = 0; i < dips.size; ++i) {
+    const Dip& dip = dips.dip[static_cast<std::size_t>(i)];
+    if (dip.peaks.size != 1 || dip.peaks.peak[0].full) {
+      features.tracked = 0;
+      return;
+    }
+    features.circle[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(dip.feature);
+    features.phi[static_cast<std::size_t>(i)] = dip.peaks.peak[0].phi;
+    ++features.tracked;
   }
 }
 
@@ -230,16 +281,38 @@ void add_arc(TouchSum& sum, const Dip& dip, const Arc& arc) {
   add_arc_end(sum, circle, arc.to, arc.to_root, to_rate, rod, sign);
 }
 
+/// Whether the whole arc lies between the caps of the rod. The height along it is z0 + z1 cos: extreme at its
+/// ends, or where it passes 0 or pi.
+bool between_caps(const CircleInRod& g, const Arc& arc) {
+  if (std::abs(g.z0) + std::abs(g.z1) <= g.half_height) return true;
+  const auto height = [&](double phi) {
+    double s, c;
+    sincos_poly(phi, s, c);
+    return std::abs(g.z0 + g.z1 * c + g.z2 * s);
+  };
+  if (std::floor(arc.from / kPi) < std::floor(arc.to / kPi)) return false;
+  return height(arc.from) < g.half_height && height(arc.to) < g.half_height;
+}
+
 void add_dip(TouchSum& sum, const Dip& dip, double deepest) {
   const TrigQuadratic side = dip.g.side();
   const double floor = kNegligible * deepest * 2.0 * dip.g.radius;
-  ArcList arcs;
+  ArcList caps;
+  caps.size = -1;  // found when first needed
   for (int i = 0; i < dip.peaks.size; ++i) {
     const Peak& peak = dip.peaks.peak[static_cast<std::size_t>(i)];
-    if (peak.value > floor) arcs.add(arc_round(side, peak, kSide));
+    if (peak.value <= floor) continue;
+    const Arc arc = arc_round(side, peak, kSide);
+    if (between_caps(dip.g, arc)) {
+      add_arc(sum, dip, arc);
+      continue;
+    }
+    if (caps.size < 0) caps = positive_arcs(dip.g.cap(), kCap);
+    ArcList one;
+    one.add(arc);
+    const ArcList both = intersection(one, caps);
+    for (int k = 0; k < both.size; ++k) add_arc(sum, dip, both.arc[static_cast<std::size_t>(k)]);
   }
-  if (arcs.size > 0 && dip.meets_cap) arcs = intersection(arcs, positive_arcs(dip.g.cap(), kCap));
-  for (int i = 0; i < arcs.size; ++i) add_arc(sum, dip, arcs.arc[static_cast<std::size_t>(i)]);
 }
 
 /// The sides of two crossed cylinders, at the common perpendicular of their axes. Closed form; s and t are
@@ -325,9 +398,14 @@ Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features) {
   const Rod near_b{b.centre - origin, b.axis, b.radius, b.half_height};
   const double reference = 2.0 * kPi * std::min(a.radius, b.radius);
   TouchSum sum(origin);
-  Dips dips;
-  find_dips(dips, features.mask, 0, near_a, near_b, 1.0);
-  find_dips(dips, features.mask, 6, near_b, near_a, -1.0);
+  thread_local Dips dips;  // work space: several kilobytes that need no clearing
+  dips.clear();
+  const bool followed = features.tracked > 0 && follow_dips(dips, features, near_a, near_b);
+  if (!followed) {
+    dips.clear();
+    for (int k = 0; k < kCrossing; ++k)
+      if (features.mask >> k & 1U) find_dip(dips, k, circle_of(k, near_a, near_b));
+  }
   for (int i = 0; i < dips.size; ++i) add_dip(sum, dips.dip[static_cast<std::size_t>(i)], dips.deepest);
   if (features.mask >> kCrossing & 1U) {
     const double gap = add_crossing(sum, near_a, near_b, reference);
@@ -336,9 +414,13 @@ Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features) {
     else
       dips.gap = std::min(dips.gap, gap);
   }
-  // a circle inside the side but beyond the caps touches nothing, and may at any moment
-  if (dips.size > 0 && sum.empty()) dips.gap = 0;
-  features = {dips.mask, dips.gap};
+  if (!followed) {
+    // a circle inside the side but beyond the caps touches nothing, and may at any moment
+    if (dips.size > 0 && sum.empty()) dips.gap = 0;
+    features.mask = dips.mask;
+    features.gap = dips.gap;
+    track(dips, features);
+  }
   return sum.finish(reference, near_a.centre, near_b.centre);
 }
 

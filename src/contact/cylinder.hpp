@@ -12,6 +12,7 @@
 //     a = (R^2 - rho^2) / 2R,   b = (h^2 - z^2) / 2h,   depth = a + b - sqrt(a^2 + b^2)   for a, b > 0
 // It is smooth inside, never larger than the nearer of the two distances, and of unit slope at the surface
 // (Rvachev's R-function).
+#include <array>
 #include <cstdint>
 
 #include "contact/touch.hpp"
@@ -33,6 +34,10 @@ double separation(const Rod& a, const Rod& b);
 /// Which features of a pair are worth a look. A pair that stays where it is needs only those that touch.
 struct RodFeatures {
   std::uint16_t mask = 0x1fff;  // in: features to look at; out: those that touch
+  // in and out: circles that touch at one place each, and the angle of that place; none: look afresh
+  std::uint8_t tracked = 0;
+  std::array<std::uint8_t, 4> circle{};
+  std::array<double, 4> phi{};
   double gap = 0;  // out: way that the surfaces may go before another of those looked at can touch [m]
 };
 

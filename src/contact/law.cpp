@@ -29,7 +29,8 @@ void add_friction(ContactForce& out, const LawNumbers& law, const Approach& appr
   const double stored = 0.5 * k * spring.stretch.squaredNorm();
   out.friction = force;
   out.elastic += stored;
-  out.rubbed -= step * force.dot(slide) + (stored - stored_before);
+  out.rubbed -= 0.5 * step * (force + spring.friction).dot(slide) + (stored - stored_before);
+  spring.friction = force;
 }
 
 void add_torsion(ContactForce& out, const Touch& touch, const LawNumbers& law, const Approach& approach,
@@ -52,7 +53,8 @@ void add_torsion(ContactForce& out, const Touch& touch, const LawNumbers& law, c
   const double stored = 0.5 * k * spring.twist * spring.twist;
   out.moment = moment * normal;
   out.elastic += stored;
-  out.rubbed -= step * moment * approach.turn + (stored - stored_before);
+  out.rubbed -= 0.5 * step * (moment + spring.moment) * approach.turn + (stored - stored_before);
+  spring.moment = moment;
 }
 
 }  // namespace
@@ -66,7 +68,9 @@ ContactForce resolve(const Touch& touch, const LawNumbers& law, const Approach& 
   const double spring_force = law.stiffness * touch.delta;
   out.push = std::max(0.0, spring_force + damping * approach.closing);
   out.elastic = 0.5 * spring_force * touch.delta;
-  out.damped = (out.push - spring_force) * approach.closing * step;
+  const double drag = out.push - spring_force;
+  out.damped = 0.5 * (drag + spring.drag) * approach.closing_mid * step;
+  spring.drag = drag;
   const double length = touch.gradient.norm();
   if (!(law.friction > 0) || !(length > 0)) return out;
   const Vec3 normal = touch.gradient / length;

@@ -18,15 +18,21 @@ struct LawNumbers {
 /// of the softest edge touch.
 inline constexpr double kTangentialShare = 2.0 / 7.0;
 
-/// What a touching pair remembers from step to step.
+/// What a touching pair remembers from step to step. The last three are only for the energy books: what is
+/// lost in a step is the mean of the dissipative forces at its ends times the velocity in its middle, as the
+/// integrator does work.
 struct Spring {
-  Vec3 stretch = Vec3::Zero();  // of the tangential spring: displacement of a against b [m]
-  double twist = 0;             // turn of a against b about the normal [rad]
+  Vec3 stretch = Vec3::Zero();   // of the tangential spring: displacement of a against b [m]
+  double twist = 0;              // turn of a against b about the normal [rad]
+  double drag = 0;               // of the dashpot, along the gradient [N]
+  Vec3 friction = Vec3::Zero();  // [N]
+  double moment = 0;             // of torsion [N m]
 };
 
 /// Motion of a against b, as the kernel's Touch sees it.
 struct Approach {
   double closing = 0;         // d delta / dt at the end of the step [m/s]
+  double closing_mid = 0;     // ... and in its middle
   double inverse_mass = 0;    // of the motion along the gradient: g M^-1 g [1/kg]
   Vec3 slide = Vec3::Zero();  // velocity of a against b at the contact point, mid step [m/s]
   double turn = 0;            // spin of a against b about the normal, mid step [rad/s]

@@ -30,20 +30,18 @@ Touch touch_container(const Model& model, const Bodies& bodies, std::uint32_t a,
 /// Looks at the features that touched last time; at all of them once the bodies may have come into reach of
 /// others.
 Touch touch_rods(const Rod& a, const Rod& b, double travelled, PairRecord& record, double& gap) {
-  RodFeatures features;
-  if (record.features != 0 && travelled < record.features_until) {
-    features.mask = record.features;
-    const Touch touch = touch_cylinders(a, b, features);
+  if (record.features.mask != 0 && travelled < record.features_until) {
+    const Touch touch = touch_cylinders(a, b, record.features);
     if (touch.delta > 0) return touch;
-    features = RodFeatures{};
   }
-  record.features = 0;
+  record.features.mask = 0;
   gap = separation(a, b);
   if (gap > 0) return {};
+  RodFeatures features;
   const Touch touch = touch_cylinders(a, b, features);
   gap = features.gap;
   if (touch.delta > 0) {
-    record.features = features.mask;
+    record.features = features;
     record.features_until = travelled + features.gap;
   }
   return touch;

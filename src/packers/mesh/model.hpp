@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bed/scene.hpp"
+#include "contact/cylinder.hpp"
 #include "contact/law.hpp"
 #include "dynamics/bodies.hpp"
 #include "dynamics/neighbours.hpp"
@@ -56,10 +57,10 @@ struct PairRecord {
   double elastic = 0;                                     // stored now [J]
   double damped = 0, rubbed = 0;                          // lost since the last search [J]
   double delta = 0;                                       // solver's overlap now [m]
-  double features_until = 0;   // travel of both bodies up to which `features` is all that can touch [m]
-  std::uint16_t features = 0;  // of the cylinder kernel (contact/cylinder.hpp)
-  double held = 0;             // size of the force when one of the two fell asleep [N]
-  double peak = 0;             // greatest depth since the last search, fraction of the thickness
+  double features_until = 0;  // travel of both bodies up to which `features` is all that can touch [m]
+  RodFeatures features{0, 0, {}, {}, 0};  // of the cylinder kernel: those that touched last time
+  double held = 0;                        // size of the force when one of the two fell asleep [N]
+  double peak = 0;                        // greatest depth since the last search, fraction of the thickness
   // touching evaluations since the last search, and those deeper than 5 % and 10 % of the thickness
   std::uint32_t looks = 0, deep_looks = 0, very_deep_looks = 0;
 };

@@ -23,6 +23,7 @@ Approach approach_of(const Model& model, const Bodies& bodies, const Touch& t, s
         bodies.velocity[i] + half_step * (bodies.inverse_mass[i] * bodies.force[i] + model.gravity);
     out.closing -= side * t.gradient.dot(velocity) + torque.dot(bodies.spin[i]) +
                    half_step * turned.dot(bodies.torque[i]);
+    out.closing_mid -= side * t.gradient.dot(bodies.velocity[i]) + torque.dot(bodies.spin[i]);
     out.slide += side * (bodies.velocity[i] + bodies.spin[i].cross(t.point - bodies.position[i]));
     spin += side * bodies.spin[i];
   };
