@@ -1,0 +1,357 @@
+#include "contact/depth_field.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "math/simd.hpp"
+#include "math/threads.hpp"
+#include "mesh/topology.hpp"
+
+namespace packbed {
+namespace {
+
+constexpr std::int32_t kBlock = 8;           // cells along the side of a block
+constexpr std::int32_t kRow = kBlock + 2;    // coefficients: one more on each side
+constexpr std::int32_t kNodes = kBlock + 4;  // samples: one more again, for the rule that makes coefficients
+constexpr std::int32_t kOutside = -1, kDeep = -2;
+// Coarse spacing in fine ones. The bound loses up to 0.87 coarse spacings: larger culls less, smaller leaves
+// the cache.
+constexpr double kCoarse = 3;
+
+// What the splines may differ from the distance near an edge, in spacings.
+constexpr double kRounding = 0.3;
+
+typedef double v4d __attribute__((vector_size(32)));
+typedef float v4f __attribute__((vector_size(16)));
+
+struct Grid {
+  double x0, y0, z0, per_spacing;
+  std::int32_t nx, ny, nz;  // blocks
+  const std::int32_t* block;
+  const float* coefficient;
+  double plateau;
+};
+
+inline double sum4(const v4d& v) {
+  return (v[0] + v[1]) + (v[2] + v[3]);
+}
+
+/// Weights of the three splines about a node at distance t in [-1/2, 1/2], and their derivatives.
+struct Spline {
+  explicit Spline(double t)
+      : w{0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)},
+        d{t - 0.5, -2 * t, t + 0.5} {}
+  double w[3], d[3];
+};
+
+PACKBED_WIDE void evaluate_grid(const Grid& grid, const DepthBatch& batch) {
+  for (std::size_t i = 0; i < batch.count; ++i) {
+    batch.depth[i] = batch.gx[i] = batch.gy[i] = batch.gz[i] = 0;
+    const double u = (batch.x[i] - grid.x0) * grid.per_spacing, v = (batch.y[i] - grid.y0) * grid.per_spacing,
+                 w = (batch.z[i] - grid.z0) * grid.per_spacing;
+    if (!(u > -0.5 && v > -0.5 && w > -0.5 && u < 1e9 && v < 1e9 && w < 1e9)) continue;
+    const std::int32_t iu = static_cast<std::int32_t>(u + 0.5), iv = static_cast<std::int32_t>(v + 0.5),
+                       iw = static_cast<std::int32_t>(w + 0.5);
+    const std::int32_t bu = iu / kBlock, bv = iv / kBlock, bw = iw / kBlock;
+    if (bu >= grid.nx || bv >= grid.ny || bw >= grid.nz) continue;
+    const std::int32_t block = grid.block[(bw * grid.ny + bv) * grid.nx + bu];
+    if (block == kDeep) batch.depth[i] = grid.plateau;
+    if (block < 0) continue;
+    const float* row = grid.coefficient + static_cast<std::size_t>(block) * (kRow * kRow * kRow) +
+                       ((iw % kBlock) * kRow + iv % kBlock) * kRow + iu % kBlock;
+    // most points that come here are just outside: the distance at the node, less the way from it, shows it
+    const double tu = u - iu, tv = v - iv, tw = w - iw;
+    const double outside = -static_cast<double>(row[kRow * kRow + kRow + 1]) * grid.per_spacing - kRounding;
+    if (outside > 0 && outside * outside > tu * tu + tv * tv + tw * tw) continue;
+    const Spline sx(tu), sy(tv), sz(tw);
+    v4d value{}, by_y{}, by_z{};
+    for (int c = 0; c < 3; ++c) {
+      v4d plane{}, plane_y{};
+      for (int b = 0; b < 3; ++b) {
+        v4f narrow;
+        std::memcpy(&narrow, row + (c * kRow + b) * kRow, sizeof narrow);
+        const v4d four = __builtin_convertvector(narrow, v4d);
+        plane += sy.w[b] * four;
+        plane_y += sy.d[b] * four;
+      }
+      value += sz.w[c] * plane;
+      by_y += sz.w[c] * plane_y;
+      by_z += sz.d[c] * plane;
+    }
+    const auto along_x = [](const double* weight, const v4d& by) {
+      return weight[0] * by[0] + weight[1] * by[1] + weight[2] * by[2];
+    };
+    const double depth = along_x(sx.w, value);
+    if (!(depth > 0)) continue;
+    batch.depth[i] = depth;
+    batch.gx[i] = along_x(sx.d, value) * grid.per_spacing;
+    batch.gy[i] = along_x(sx.w, by_y) * grid.per_spacing;
+    batch.gz[i] = along_x(sx.w, by_z) * grid.per_spacing;
+  }
+}
+
+PACKBED_WIDE void evaluate_sphere(double radius, std::size_t count, const double* __restrict x,
+                                  const double* __restrict y, const double* __restrict z,
+                                  double* __restrict depth, double* __restrict gx, double* __restrict gy,
+                                  double* __restrict gz) {
+  const double per_radius = 1 / radius;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double d = 0.5 * (radius - (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]) * per_radius);
+    const double in = d > 0 ? per_radius : 0.0;
+    depth[i] = d > 0 ? d : 0.0;
+    gx[i] = -x[i] * in;
+    gy[i] = -y[i] * in;
+    gz[i] = -z[i] * in;
+  }
+}
+
+PACKBED_WIDE void evaluate_cylinder(double radius, double half_height, std::size_t count,
+                                    const double* __restrict x, const double* __restrict y,
+                                    const double* __restrict z, double* __restrict depth,
+                                    double* __restrict gx, double* __restrict gy, double* __restrict gz) {
+  const double per_radius = 1 / radius, per_height = 1 / half_height;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double a = 0.5 * (radius - (x[i] * x[i] + y[i] * y[i]) * per_radius);
+    const double b = 0.5 * (half_height - z[i] * z[i] * per_height);
+    const double norm = std::sqrt(a * a + b * b) + 1e-300;
+    const bool in = (a > 0) & (b > 0);
+    const double by_a = in ? (1 - a / norm) * per_radius : 0.0, by_b = in ? (1 - b / norm) * per_height : 0.0;
+    depth[i] = in ? a + b - norm : 0.0;
+    gx[i] = -x[i] * by_a;
+    gy[i] = -y[i] * by_a;
+    gz[i] = -z[i] * by_b;
+  }
+}
+
+struct Coarse {
+  double x0, y0, z0, spacing, per_spacing;
+  double cx, cy, cz, hx, hy, hz;  // centre and half width of the body's box
+  std::int32_t nx, ny, nz;
+  const float* distance;
+};
+
+struct Points {
+  const double *x, *y, *z, *radius;
+  std::size_t count;
+};
+
+/// Lower bounds of the distance from the body, less the radius: from the nearest coarse node (the distance
+/// changes by no more than one goes), and from the body's box.
+PACKBED_WIDE void bound_grid(const Coarse& coarse, const Points& p, double* bound) {
+  const double top_x = coarse.nx - 1, top_y = coarse.ny - 1, top_z = coarse.nz - 1;
+  for (std::size_t i = 0; i < p.count; ++i) {
+    const double u = std::min(std::max((p.x[i] - coarse.x0) * coarse.per_spacing + 0.5, 0.0), top_x);
+    const double v = std::min(std::max((p.y[i] - coarse.y0) * coarse.per_spacing + 0.5, 0.0), top_y);
+    const double w = std::min(std::max((p.z[i] - coarse.z0) * coarse.per_spacing + 0.5, 0.0), top_z);
+    const std::int32_t iu = static_cast<std::int32_t>(u), iv = static_cast<std::int32_t>(v),
+                       iw = static_cast<std::int32_t>(w);
+    const double x = p.x[i] - (coarse.x0 + iu * coarse.spacing),
+                 y = p.y[i] - (coarse.y0 + iv * coarse.spacing),
+                 z = p.z[i] - (coarse.z0 + iw * coarse.spacing);
+    const double distance = static_cast<double>(coarse.distance[(iw * coarse.ny + iv) * coarse.nx + iu]);
+    const double inner = distance - std::sqrt(x * x + y * y + z * z);
+    const double ex = std::max(std::abs(p.x[i] - coarse.cx) - coarse.hx, 0.0),
+                 ey = std::max(std::abs(p.y[i] - coarse.cy) - coarse.hy, 0.0),
+                 ez = std::max(std::abs(p.z[i] - coarse.cz) - coarse.hz, 0.0);
+    const double outer2 = ex * ex + ey * ey + ez * ez;
+    bound[i] = (outer2 > 0 ? std::max(inner, std::sqrt(outer2)) : inner) - p.radius[i];
+  }
+}
+
+PACKBED_WIDE void bound_sphere(double radius, const Points& p, double* bound) {
+  for (std::size_t i = 0; i < p.count; ++i)
+    bound[i] = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i] + p.z[i] * p.z[i]) - radius - p.radius[i];
+}
+
+PACKBED_WIDE void bound_cylinder(double radius, double half_height, const Points& p, double* bound) {
+  for (std::size_t i = 0; i < p.count; ++i) {
+    const double across = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i]) - radius;
+    const double along = std::abs(p.z[i]) - half_height;
+    bound[i] = (across > along ? across : along) - p.radius[i];
+  }
+}
+
+/// Samples of the distance over one block, for the splines: coefficient = f - (laplacian of f) / 8.
+void fill_block(const TriangleTree& tree, const Vec3& first_node, double spacing, double deepest,
+                float* out) {
+  std::vector<double> sample(static_cast<std::size_t>(kNodes * kNodes * kNodes));
+  const auto at = [](std::int32_t k, std::int32_t j, std::int32_t i) {
+    return static_cast<std::size_t>((k * kNodes + j) * kNodes + i);
+  };
+  double last = std::numeric_limits<double>::infinity();
+  Vec3 last_node = Vec3::Zero();
+  for (std::int32_t k = 0; k < kNodes; ++k)
+    for (std::int32_t j = 0; j < kNodes; ++j)
+      for (std::int32_t i = 0; i < kNodes; ++i) {
+        const Vec3 node = first_node + spacing * Vec3(i - 2, j - 2, k - 2);
+        const double bound =
+            std::isinf(last) ? last : (std::abs(last) + (node - last_node).norm()) * (1 + 1e-9);
+        last = tree.nearest(node, bound).distance;
+        last_node = node;
+        sample[at(k, j, i)] = deepest > 0 ? std::min(-last, deepest) : -last;
+      }
+  for (std::int32_t k = 1; k <= kRow; ++k)
+    for (std::int32_t j = 1; j <= kRow; ++j)
+      for (std::int32_t i = 1; i <= kRow; ++i) {
+        const double f = sample[at(k, j, i)];
+        const double laplacian = sample[at(k, j, i - 1)] + sample[at(k, j, i + 1)] + sample[at(k, j - 1, i)] +
+                                 sample[at(k, j + 1, i)] + sample[at(k - 1, j, i)] + sample[at(k + 1, j, i)] -
+                                 6 * f;
+        *out++ = static_cast<float>(f - 0.125 * laplacian);
+      }
+}
+
+double cube(double x) {
+  return x * x * x;
+}
+
+}  // namespace
+
+DepthField DepthField::of_sphere(double radius) {
+  DepthField field;
+  field.kind_ = Kind::sphere;
+  field.radius_ = radius;
+  return field;
+}
+
+DepthField DepthField::of_cylinder(double radius, double half_height) {
+  DepthField field;
+  field.kind_ = Kind::cylinder;
+  field.radius_ = radius;
+  field.half_height_ = half_height;
+  return field;
+}
+
+DepthField DepthField::of_mesh(const TriangleMesh& mesh, double spacing, double deepest) {
+  DepthField field;
+  field.kind_ = Kind::grid;
+  field.spacing_ = spacing;
+  const TriangleTree tree(mesh);
+  const Box3 box = bounding_box(mesh);
+  field.origin_ = box.min() - Vec3::Constant(2 * spacing);
+  for (int k = 0; k < 3; ++k)
+    field.blocks_[static_cast<std::size_t>(k)] =
+        static_cast<std::int32_t>(std::ceil((box.sizes()[k] + 4 * spacing) / spacing / kBlock)) + 1;
+  field.box_centre_ = box.center();
+  field.box_half_ = 0.5 * box.sizes() + Vec3::Constant(kRounding * spacing);
+  field.make_coarse(tree, box);
+  field.make_blocks(tree, deepest);
+  return field;
+}
+
+void DepthField::make_coarse(const TriangleTree& tree, const Box3& box) {
+  coarse_spacing_ = kCoarse * spacing_;
+  coarse_origin_ = box.min() - Vec3::Constant(coarse_spacing_);
+  std::size_t total = 1;
+  for (int k = 0; k < 3; ++k) {
+    const std::int32_t n = static_cast<std::int32_t>(std::ceil(box.sizes()[k] / coarse_spacing_)) + 3;
+    coarse_size_[static_cast<std::size_t>(k)] = n;
+    total *= static_cast<std::size_t>(n);
+  }
+  coarse_.resize(total);
+  const auto nx = static_cast<std::size_t>(coarse_size_[0]), ny = static_cast<std::size_t>(coarse_size_[1]);
+  parallel_for(total, 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 index(static_cast<double>(i % nx), static_cast<double>(i / nx % ny),
+                       static_cast<double>(i / nx / ny));
+      const double d = tree.signed_distance(coarse_origin_ + coarse_spacing_ * index);
+      // down by more than a float's rounding and by what the splines may add near an edge
+      coarse_[i] = static_cast<float>(d - kRounding * spacing_ - 1e-6 * std::abs(d));
+    }
+  });
+}
+
+void DepthField::make_blocks(const TriangleTree& tree, double deepest) {
+  const double half_diagonal = 0.5 * kBlock * std::sqrt(3.0) * spacing_;
+  plateau_ = deepest;
+  const auto corner_node = [&](std::size_t i) {
+    const auto nx = static_cast<std::size_t>(blocks_[0]), ny = static_cast<std::size_t>(blocks_[1]);
+    const Vec3 index(static_cast<double>(i % nx), static_cast<double>(i / nx % ny),
+                     static_cast<double>(i / nx / ny));
+    return Vec3(origin_ + kBlock * spacing_ * index);
+  };
+  const std::size_t total = static_cast<std::size_t>(blocks_[0]) * static_cast<std::size_t>(blocks_[1]) *
+                            static_cast<std::size_t>(blocks_[2]);
+  block_.assign(total, 0);
+  parallel_for(total, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double d = tree.signed_distance(corner_node(i) + Vec3::Constant(0.5 * (kBlock - 1) * spacing_));
+      if (d > half_diagonal + spacing_) block_[i] = kOutside;
+      if (deepest > 0 && d < -deepest - half_diagonal - 4 * spacing_) block_[i] = kDeep;
+    }
+  });
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < total; ++i)
+    if (block_[i] == 0) {
+      block_[i] = static_cast<std::int32_t>(used.size());
+      used.push_back(i);
+    }
+  constexpr std::size_t kSize = static_cast<std::size_t>(kRow * kRow * kRow);
+  coefficient_.assign(used.size() * kSize + 4, 0.0F);  // a row is read four at a time
+  parallel_for(used.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      fill_block(tree, corner_node(used[i]), spacing_, deepest, coefficient_.data() + i * kSize);
+  });
+}
+
+double DepthField::estimate_bytes(const TriangleMesh& mesh, double spacing, double deepest) {
+  const double side = kBlock * spacing, bytes = sizeof(float) * cube(kRow);
+  const Vec3 size = bounding_box(mesh).sizes() + Vec3::Constant(4 * spacing);
+  const double box = size.prod() / cube(side) * bytes;
+  if (!(deepest > 0)) return box;
+  double area = 0;
+  for (const auto& t : mesh.triangles) area += triangle_area_vector(mesh, t).norm();
+  // blocks whose centre is within half a diagonal, and a little, of the band
+  return std::min(box,
+                  area * (deepest + kBlock * std::sqrt(3.0) * spacing + 5 * spacing) / cube(side) * bytes);
+}
+
+void DepthField::evaluate(const DepthBatch& batch) const {
+  const DepthBatch& b = batch;
+  if (kind_ == Kind::sphere)
+    return evaluate_sphere(radius_, b.count, b.x, b.y, b.z, b.depth, b.gx, b.gy, b.gz);
+  if (kind_ == Kind::cylinder)
+    return evaluate_cylinder(radius_, half_height_, b.count, b.x, b.y, b.z, b.depth, b.gx, b.gy, b.gz);
+  evaluate_grid({origin_.x(), origin_.y(), origin_.z(), 1 / spacing_, blocks_[0], blocks_[1], blocks_[2],
+                 block_.data(), coefficient_.data(), plateau_},
+                batch);
+}
+
+double DepthField::depth(const Vec3& x, Vec3* gradient) const {
+  double depth = 0;
+  Vec3 g = Vec3::Zero();
+  evaluate({&x[0], &x[1], &x[2], &depth, &g[0], &g[1], &g[2], 1});
+  if (gradient) *gradient = g;
+  return depth;
+}
+
+std::size_t DepthField::near(const double* x, const double* y, const double* z, const double* radius,
+                             std::size_t count, std::uint16_t* indices, double* apart) const {
+  alignas(64) double bound[kChunk];
+  const Points points{x, y, z, radius, count};
+  assert(count <= kChunk);
+  if (kind_ == Kind::sphere) bound_sphere(radius_, points, bound);
+  if (kind_ == Kind::cylinder) bound_cylinder(radius_, half_height_, points, bound);
+  if (kind_ == Kind::grid)
+    bound_grid(
+        {coarse_origin_.x(), coarse_origin_.y(), coarse_origin_.z(), coarse_spacing_, 1 / coarse_spacing_,
+         box_centre_.x(), box_centre_.y(), box_centre_.z(), box_half_.x(), box_half_.y(), box_half_.z(),
+         coarse_size_[0], coarse_size_[1], coarse_size_[2], coarse_.data()},
+        points, bound);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < count; ++i) {  // without a branch: which points are near is as good as random
+    indices[found] = static_cast<std::uint16_t>(i);
+    found += !(bound[i] > 0);
+  }
+  if (apart) *apart = found > 0 ? 0 : *std::min_element(bound, bound + count);
+  return found;
+}
+
+std::size_t DepthField::bytes() const {
+  return block_.size() * sizeof(std::int32_t) + (coefficient_.size() + coarse_.size()) * sizeof(float);
+}
+
+}  // namespace packbed

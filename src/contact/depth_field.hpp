@@ -1,0 +1,76 @@
+#pragma once
+// How deep a point is inside a body. Zero on the surface and outside, of unit slope at the surface, and C1:
+// the force is the gradient of its 8th power, so nothing jumps.
+//
+//   sphere     (R^2 - r^2) / 2R                                                      closed form
+//   cylinder   a + b - sqrt(a^2 + b^2), a = (R^2 - rho^2)/2R, b = (h^2 - z^2)/2h     closed form
+//   mesh       minus the signed distance, sampled on a regular grid and smoothed by quadratic B-splines
+//
+// Quadratic splines over 3x3x3 coefficients are the cheapest C1 field on a grid (tricubic: 64). The
+// coefficients come from the samples by f - (laplacian of f)/8, a local rule that reproduces every quadratic
+// without cubic cross terms: a flat face is exact, a curved one has an error of third order in the spacing,
+// and an edge is rounded over a fraction of a spacing.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/triangle_tree.hpp"
+#include "shape/shape.hpp"
+
+namespace packbed {
+
+/// Points in the frame of a field and what it says of them; arrays of equal length, padded by the caller to a
+/// multiple of 4 with any finite numbers.
+struct DepthBatch {
+  const double *x, *y, *z;       // [m]
+  double *depth, *gx, *gy, *gz;  // [m], gradient of the depth [-]
+  std::size_t count = 0;
+};
+
+class DepthField {
+ public:
+  static DepthField of_sphere(double radius);
+  static DepthField of_cylinder(double radius, double half_height);
+  /// `spacing` of the grid [m]; depths beyond `deepest` are cut off there (0: none are).
+  static DepthField of_mesh(const TriangleMesh& mesh, double spacing, double deepest = 0);
+  /// Bytes that of_mesh would take, estimated from the area of the mesh; for a whole body without `deepest`,
+  /// from its box.
+  static double estimate_bytes(const TriangleMesh& mesh, double spacing, double deepest);
+
+  void evaluate(const DepthBatch& batch) const;
+  double depth(const Vec3& x, Vec3* gradient = nullptr) const;
+
+  static constexpr std::size_t kChunk = 256;
+  /// Writes the indices of the points that may be within radius[i] of the body (of x[i], in the field's
+  /// frame; at most kChunk), leaving out only such as certainly are not. Returns how many. `apart`, if given:
+  /// when there are none, a lower bound of what separates the spheres from the body [m], else 0.
+  std::size_t near(const double* x, const double* y, const double* z, const double* radius, std::size_t count,
+                   std::uint16_t* indices, double* apart = nullptr) const;
+
+  double spacing() const { return spacing_; }
+  std::size_t bytes() const;
+
+ private:
+  enum class Kind { sphere, cylinder, grid };
+  DepthField() = default;
+  void make_coarse(const TriangleTree& tree, const Box3& box);
+  void make_blocks(const TriangleTree& tree, double deepest);
+
+  Kind kind_ = Kind::sphere;
+  double radius_ = 0, half_height_ = 0;
+  // blocks of 8^3 cells round nodes, each with the 10^3 coefficients that its splines need
+  double spacing_ = 0;
+  Vec3 origin_ = Vec3::Zero();            // of node (0, 0, 0)
+  std::array<std::int32_t, 3> blocks_{};  // along x, y, z
+  std::vector<std::int32_t> block_;       // (bz, by, bx) -> which block, or kOutside, kDeep
+  std::vector<float> coefficient_;        // of minus the signed distance [m]
+  double plateau_ = 0;                    // depth where kDeep [m]
+  Vec3 box_centre_ = Vec3::Zero(), box_half_ = Vec3::Zero();  // of the body [m]
+  // signed distance at the nodes of a coarse grid, rounded down: bounds for culling (1-Lipschitz)
+  double coarse_spacing_ = 0;
+  Vec3 coarse_origin_ = Vec3::Zero();
+  std::array<std::int32_t, 3> coarse_size_{};
+  std::vector<float> coarse_;
+};
+
+}  // namespace packbed
