@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -107,9 +108,14 @@ Json profile_json(const Profile& profile) {
       {"x_dp", floats(profile.x_dp)}, {"density", floats(profile.density)}, {"exact", floats(profile.exact)}};
 }
 
+/// One byte a cell is enough for a picture: 0 to 254 for 0 to 1, 255 outside the container.
 Json planar_json(const std::optional<PlanarMap>& map) {
   if (!map) return nullptr;
-  return {{"size", map->size}, {"pitch", map->pitch}, {"density", floats(map->density)}};
+  std::vector<std::uint8_t> cells;
+  for (const float d : map->density)
+    cells.push_back(std::isfinite(d) ? static_cast<std::uint8_t>(std::lround(254 * std::clamp(d, 0.0F, 1.0F)))
+                                     : 255);
+  return {{"size", map->size}, {"pitch", map->pitch}, {"density", typed("u8", cells)}};
 }
 
 Json orientation_json(const std::optional<Orientation>& o) {

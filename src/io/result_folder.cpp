@@ -115,10 +115,6 @@ ResultFolder interrupted_result_folder(const std::string& path) {
   if (!folder.has(result_file::kCase))
     throw InputError(path, "a folder without case.toml", "the result folder of an interrupted run",
                      "start the run anew with `packbed run CASE`");
-  if (folder.has(result_file::kSummary))
-    throw InputError(path, "a run that has ended (summary.json is there)",
-                     "the result folder of an interrupted run",
-                     "there is nothing to continue; `packbed run CASE --force` runs it anew");
   try {
     prove_writable(folder);
     remove_temporaries(path);

@@ -32,7 +32,7 @@ struct ResultFolder {
 ResultFolder new_result_folder(const std::string& path, bool force, long long bytes_needed = 1 << 20);
 
 /// The folder of an interrupted run; removes temporary files that a kill left behind. Throws InputError when
-/// it holds no case.toml, the run has ended or it cannot be written, and tells what to do.
+/// it holds no case.toml or cannot be written, and tells what to do.
 ResultFolder interrupted_result_folder(const std::string& path);
 
 /// The file itself, or the file `name` of the result folder that `path` names. Throws InputError when there

@@ -17,7 +17,7 @@ void write_voxels(const ResultFolder& folder, const Scene& scene, const RunRecor
                   const AnalysisResult& analysis, const VoxelGrid* grid) {
   if (!scene.output.voxels || !grid) return;
   write_grid(folder.file(result_file::kVoxels), *grid,
-             {scene.container.radius, analysis.bulk.diameter_m, "bed " + record.bed_hash});
+             {scene.container.radius, analysis.bulk.diameter_m, record.bed_hash});
 }
 
 void write_paraview(const ResultFolder& folder, const Scene& scene, const PackedBed& bed,
@@ -50,7 +50,8 @@ std::string write_results(const ResultFolder& folder, const Scene& scene, const 
     write_report(report, bed, &record, analysis, &scene, references_of(scene));
   }
   write_atomically(folder.file(result_file::kSummary), summary_json(scene, record, analysis));
-  std::filesystem::remove(folder.file(result_file::kCheckpoint));
+  std::error_code ignored;
+  std::filesystem::remove(folder.file(result_file::kCheckpoint), ignored);
   return report;
 }
 

@@ -6,7 +6,7 @@ function bytes(text) {
   return out.buffer;
 }
 
-const KINDS = { f32: Float32Array, u16: Uint16Array, u32: Uint32Array };
+const KINDS = { f32: Float32Array, u8: Uint8Array, u16: Uint16Array, u32: Uint32Array };
 
 /** {"f32": "..."} becomes a Float32Array, wherever it stands. */
 function decoded(value) {

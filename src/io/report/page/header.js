@@ -58,5 +58,5 @@ export function header(data) {
     element('p', { class: 'facts' }, facts.join('  ·  ')),
     tiles(data),
     data.bulk.definition ? element('p', { class: 'definition' }, element('strong', {}, 'Packing density: '),
-      `${data.bulk.definition}. ± is the standard deviation of the axial profile within the bed, not between beds.`) : null);
+      `${data.bulk.definition.replace(/\.$/, '')}. ± is the standard deviation of the axial profile within the bed, not between beds.`) : null);
 }

@@ -21,8 +21,8 @@ function planarMap(map) {
   map.density.forEach((value, i) => {
     const row = map.size[1] - 1 - Math.floor(i / map.size[0]); // y upwards
     const at = 4 * (row * map.size[0] + i % map.size[0]);
-    if (!Number.isFinite(value)) return;
-    pixels.data.set([...colourAt('viridis', value).map(Math.round), 255], at);
+    if (value === 255) return; // outside the container
+    pixels.data.set([...colourAt('viridis', value / 254).map(Math.round), 255], at);
   });
   pen.putImageData(pixels, 0, 0);
   drawn(() => {
