@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "geometry/triangle.hpp"
+#include "contact/field.hpp"
 #include "math/error.hpp"
 
 namespace packbed {
@@ -31,49 +31,31 @@ Vec3 support(const Shape& shape, double scale, const Pose& pose, const Vec3& dir
   return pose.position + pose.rotation * (local * scale);
 }
 
-/// Solid angle of the triangle seen from p (van Oosterom & Strackee 1983); the sum over a closed mesh is
-/// 4 pi inside and 0 outside.
-double solid_angle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = a - p, v = b - p, w = c - p;
-  const double lu = u.norm(), lv = v.norm(), lw = w.norm();
-  return 2 * std::atan2(u.dot(v.cross(w)), lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv);
-}
-
-struct Wall {
-  double distance = std::numeric_limits<double>::infinity();  // of the nearest point of its surface [m]
-  bool inside = false;                                        // of the solid
-};
-
-Wall wall_at(const TriangleMesh& mesh, const Vec3& p) {
-  Wall wall;
-  double angle = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
-    angle += solid_angle(p, a, b, c);
-    wall.distance = std::min(wall.distance, (closest_on_triangle(p, a, b, c).point - p).norm());
-  }
-  wall.inside = angle > 2 * kPi;
-  return wall;
-}
-
-double container_overlap(const Container& container, const Shape& shape, const Pellet& pellet) {
-  double overlap = 0;
-  if (container.kind == ContainerKind::plane || container.kind == ContainerKind::tube)
-    overlap = -lowest_point(shape, pellet.scale, pellet.pose);
-  if (container.kind == ContainerKind::tube)
-    overlap = std::max(overlap, radial_extent(shape, pellet.scale, pellet.pose) - container.radius);
-  if (container.kind == ContainerKind::mesh) {
-    const Wall wall = wall_at(container.surface, pellet.pose.position);
-    if (wall.inside) overlap = wall.distance;
-  }
-  return std::max(0.0, overlap);
-}
-
 std::string micrometres(double length) {
   return fmt::format("{:.4g} um", length * 1e6);
 }
+
+/// Depths of pairs that are not both convex, by the general kernel; its fields are made when first asked for.
+class Fields {
+ public:
+  Fields(const Scene& scene, const OverlapTest& test)
+      : scene_(scene), test_(test), body_(scene.pellets.size()) {}
+  double depth(const Pellet& a, const Pellet& b) {
+    const double reach = test_.bounding_radius(a) + test_.bounding_radius(b);
+    if ((a.pose.position - b.pose.position).squaredNorm() >= reach * reach) return 0;
+    return touch_field({&body(a.shape), a.pose, a.scale}, {&body(b.shape), b.pose, b.scale}).depth;
+  }
+
+ private:
+  const FieldBody& body(std::uint32_t kind) {
+    if (!body_[kind])
+      body_[kind] = std::make_unique<const FieldBody>(make_field_body(*scene_.pellets[kind].shape));
+    return *body_[kind];
+  }
+  const Scene& scene_;
+  const OverlapTest& test_;
+  std::vector<std::unique_ptr<const FieldBody>> body_;
+};
 
 void check_pose(const Pellet& p) {
   const bool finite = p.pose.position.allFinite() && p.pose.rotation.coeffs().allFinite() &&
@@ -116,25 +98,43 @@ double lowest_point(const Shape& shape, double scale, const Pose& pose) {
   return support(shape, scale, pose, Vec3(0, 0, -1)).z();
 }
 
-bool sphere_inside(const Container& container, const Vec3& centre, double radius) {
+Room::Room(const Container& container) : kind_(container.kind), radius_(container.radius) {
+  if (kind_ == ContainerKind::mesh) wall_ = std::make_unique<const TriangleTree>(container.surface);
+}
+Room::~Room() = default;
+
+bool Room::holds_sphere(const Vec3& centre, double radius) const {
   constexpr double kRounding = 1e-9;  // of the size
-  switch (container.kind) {
+  switch (kind_) {
     case ContainerKind::none:
       return true;
     case ContainerKind::plane:
       return centre.z() >= radius;
     case ContainerKind::tube:
-      return centre.z() >= radius &&
-             std::hypot(centre.x(), centre.y()) + radius <= container.radius * (1 + kRounding);
-    case ContainerKind::mesh: {
-      const Wall wall = wall_at(container.surface, centre);
-      return !wall.inside && wall.distance >= radius * (1 - kRounding);
-    }
+      return centre.z() >= radius && std::hypot(centre.x(), centre.y()) + radius <= radius_ * (1 + kRounding);
+    case ContainerKind::mesh:
+      return wall_->signed_distance(centre) >= radius * (1 - kRounding);
   }
   return false;
 }
 
-void check_placed(const Scene& scene, const OverlapTest& test, std::span<const Pellet> pellets) {
+double Room::overlap(const Shape& shape, double scale, const Pose& pose) const {
+  double overlap = 0;
+  if (kind_ == ContainerKind::plane || kind_ == ContainerKind::tube)
+    overlap = -lowest_point(shape, scale, pose);
+  if (kind_ == ContainerKind::tube) overlap = std::max(overlap, radial_extent(shape, scale, pose) - radius_);
+  if (kind_ == ContainerKind::mesh) {
+    const double centre = wall_->signed_distance(pose.position);
+    overlap = shape.kind == ShapeClass::sphere ? shape.radius * scale - centre : -centre;
+    if (shape.kind != ShapeClass::sphere && centre < shape.bounding_radius * scale)
+      for (const Vec3& v : shape.surface.vertices)
+        overlap = std::max(overlap, -wall_->signed_distance(pose.to_world(v * scale)));
+  }
+  return std::max(0.0, overlap);
+}
+
+void check_placed(const Scene& scene, const OverlapTest& test, const Room& room,
+                  std::span<const Pellet> pellets) {
   const double allowed = std::max(scene.pellet_contact.allowed_overlap, scene.overlap_limit);
   const double allowed_wall = std::max(scene.wall_contact.allowed_overlap, scene.overlap_limit);
   const auto thickness = [&](const Pellet& p) {
@@ -142,13 +142,14 @@ void check_placed(const Scene& scene, const OverlapTest& test, std::span<const P
   };
   for (const Pellet& p : pellets) {
     check_pose(p);
-    const double overlap = container_overlap(scene.container, *scene.pellets[p.shape].shape, p);
+    const double overlap = room.overlap(*scene.pellets[p.shape].shape, p.scale, p.pose);
     if (!p.fixed && overlap > allowed_wall * thickness(p))
       throw InputError(fmt::format("placed pellet {}", p.id),
                        fmt::format("{} outside of the container", micrometres(overlap)),
                        fmt::format("at most {}", micrometres(allowed_wall * thickness(p))),
                        "move it inwards, or make it fixed");
   }
+  Fields fields(scene, test);
   // pairs whose height ranges meet, from the lowest upwards
   std::vector<std::size_t> order(pellets.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -163,7 +164,8 @@ void check_placed(const Scene& scene, const OverlapTest& test, std::span<const P
       const Pellet& b = pellets[order[j]];
       if (a.fixed && b.fixed) continue;
       const double limit = allowed * std::min(thickness(a), thickness(b));
-      const double overlap = test.depth(a, b);
+      const double overlap =
+          test.exact(a.shape) && test.exact(b.shape) ? test.depth(a, b) : fields.depth(a, b);
       if (overlap > limit)
         throw InputError(fmt::format("placed pellets {} and {}", std::min(a.id, b.id), std::max(a.id, b.id)),
                          fmt::format("an overlap of {}", micrometres(overlap)),

@@ -107,11 +107,11 @@ void check_settings(const Scene& scene, double pellet_radius) {
 }  // namespace
 
 struct Feeder::Plan {
-  explicit Plan(const Scene& s) : scene(s), test(s.pellets) {
+  explicit Plan(const Scene& s) : scene(s), test(s.pellets), room(s.container) {
     for (const PelletKind& kind : scene.pellets) radius = std::max(radius, kind.shape->bounding_radius);
     if (scene.feed.kind == FeedKind::placed) {
       placed = placed_pellets(scene);
-      check_placed(scene, test, placed);
+      check_placed(scene, test, room, placed);
       return;
     }
     check_settings(scene, radius);
@@ -128,7 +128,7 @@ struct Feeder::Plan {
     if (scene.container.kind != ContainerKind::mesh || scene.feed.above_bed) return;
     Random random(scene.seed, Stream::feed_position, 0xffffffff);
     for (int draw = 0; draw < kDraws; ++draw)
-      if (sphere_inside(scene.container, on_disc(random, scene.feed.drop_height), radius)) return;
+      if (room.holds_sphere(on_disc(random, scene.feed.drop_height), radius)) return;
     throw InputError("feed.drop_height", millimetres(scene.feed.drop_height),
                      fmt::format("a height at which a sphere of {} fits between the container's walls",
                                  millimetres(2 * radius)),
@@ -145,7 +145,7 @@ struct Feeder::Plan {
     const auto hits = [&](const Pellet& other) { return test.overlap(pellet, other); };
     if (std::any_of(near.begin(), near.end(), hits)) return false;
     if (std::any_of(entering.begin(), entering.end(), hits)) return false;
-    return sphere_inside(scene.container, pellet.pose.position, test.bounding_radius(pellet));
+    return room.holds_sphere(pellet.pose.position, test.bounding_radius(pellet));
   }
 
   /// How many of the pellets that follow `fed` may enter together before the count or the mass is reached.
@@ -179,6 +179,7 @@ struct Feeder::Plan {
 
   const Scene scene;
   OverlapTest test;
+  Room room;
   double radius = 0;  // of the largest bounding sphere [m]
   double circle = 0;  // radius of the feed circle [m]
   LayerPattern loose, dense;

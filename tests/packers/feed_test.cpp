@@ -390,6 +390,31 @@ TEST(Feed, PlacedPelletsOutsideOrWithoutANumberAreRefused) {
   EXPECT_THROW(Feeder{scene}, InputError);
 }
 
+TEST(Feed, PlacedPelletsThatAreNotConvexMayReachIntoEachOther) {
+  Scene scene = a38_scene(FeedKind::placed, 0);
+  scene.feed.count.reset();
+  const auto cup = test::mesh_body(test::square_cup(1.9e-3, 3e-3, 0.8e-3), 60e-9, 0.8e-3);
+  scene.pellets = {{cup, 2000, 0.5}, {test::sphere(1.8e-3), 2000, 0.5}};
+  PlacedPellet outer, inner;
+  outer.pose.position = {0, 0, 1e-3};
+  inner.kind = 1;
+  inner.pose.position = {0, 0, 1e-3 + 1.81e-3};  // in the hollow, just clear of its floor
+  scene.feed.placed = {outer, inner};
+  EXPECT_NO_THROW(Feeder{scene});
+  scene.feed.placed[1].pose.position.x() = 0.2e-3;  // 0.1 mm into the wall
+  EXPECT_THROW(Feeder{scene}, InputError);
+}
+
+TEST(Feed, PlacedPelletsInTheWallOfAMeshContainerAreRefused) {
+  Scene scene = two_placed(5e-3);
+  scene.container.kind = ContainerKind::mesh;
+  scene.container.radius = 10e-3;
+  scene.container.surface = test::square_cup(10e-3, 0.08, 2e-3);
+  EXPECT_NO_THROW(Feeder{scene});
+  scene.feed.placed[1].pose.position.x() = 8.5e-3;  // the side of radius 1.71 mm reaches 0.21 mm in
+  EXPECT_THROW(Feeder{scene}, InputError);
+}
+
 TEST(Feed, RadialExtentOfALyingCylinderIsThatOfItsRim) {
   const auto a = test::a38();
   Pose lying{{3e-3, 0, 0}, Quat(Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()))};  // axis along y
