@@ -26,7 +26,7 @@ struct SampleTable {
 const SampleTable kTable;
 
 /// Root of f between its maximum and a point where f <= 0: Newton, held inside the bracket by bisection.
-/// Newton doubles the digits: after a step of a hundredth the end is right to a ten thousandth of the arc,
+/// Newton doubles the digits: after a step of a ten thousandth the end is right to rounding,
 /// and d^8 vanishes there anyway.
 double root_between(const TrigQuadratic& f, double top, double outside, double guess) {
   double x = guess, inside = top;
@@ -38,7 +38,7 @@ double root_between(const TrigQuadratic& f, double top, double outside, double g
     double next = x - value / f.slope(c, s);
     const double low = std::min(inside, outside), high = std::max(inside, outside);
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (std::abs(next - x) <= 1e-2 * std::abs(x - top)) return next;
+    if (std::abs(next - x) <= 1e-4 * std::abs(x - top)) return next;
     x = next;
   }
   return x;
@@ -61,6 +61,20 @@ void climb(const TrigQuadratic& f, Peak& peak, double step, double low, double h
     }
   }
   peak.third = f.third(peak.cosine, peak.sine);
+}
+
+/// An angle beside a peak at which f <= 0, by walking out in steps that turn cosine and sine without a
+/// library call. None within a turn: the peak's own angle. A narrow peak needs none (see arc_round).
+double foot(const TrigQuadratic& f, const Peak& peak, double side) {
+  if (2.0 * peak.value < -kNarrow * kNarrow * peak.curvature) return peak.phi + side * 1.5 * kNarrow;
+  double c = peak.cosine, s = peak.sine;
+  for (int i = 1; i < kSamples; ++i) {
+    const double turned = c * kTable.c[1] - side * s * kTable.s[1];
+    s = s * kTable.c[1] + side * c * kTable.s[1];
+    c = turned;
+    if (f.at(c, s) <= 0) return peak.phi + side * i * kStep;
+  }
+  return peak.phi;
 }
 
 /// The first step from the best sample, where the derivatives are known: Halley's.
@@ -152,9 +166,12 @@ PeakList positive_peaks(const TrigQuadratic& f) {
 
 bool follow_peak(const TrigQuadratic& f, double phi, Peak& peak) {
   peak.phi = phi;
+  peak.full = false;
   climb(f, peak, 0.0, phi - 0.2, phi + 0.2);
-  if (!(peak.value > 0 && peak.curvature < 0)) return false;
-  return 2.0 * peak.value < -kNarrow * kNarrow * peak.curvature && std::abs(peak.phi - phi) < 0.15;
+  if (!(peak.value > 0 && peak.curvature < 0) || std::abs(peak.phi - phi) > 0.15) return false;
+  peak.low = foot(f, peak, -1.0);
+  peak.high = foot(f, peak, 1.0);
+  return peak.low < peak.high;
 }
 
 Arc arc_round(const TrigQuadratic& f, const Peak& peak, int name) {
@@ -189,7 +206,7 @@ ArcList intersection(const ArcList& a, const ArcList& b) {
         both.add(p);
         continue;
       }
-      for (int turn = -1; turn <= 1; ++turn) {
+      for (int turn = -2; turn <= 2; ++turn) {
         const double from = q.from + 2.0 * kPi * turn, to = q.to + 2.0 * kPi * turn;
         Arc arc;
         arc.from = std::max(p.from, from);

@@ -52,10 +52,6 @@ struct CircleInRod {
     return {radius * radius - w2 + z0 * z0 + z2 * z2, -p + 2 * z0 * z1, -q + 2 * z0 * z2, z1 * z1 - z2 * z2,
             2 * z1 * z2};
   }
-  TrigQuadratic cap() const {  // h^2 - z^2
-    return {half_height * half_height - z0 * z0 - z2 * z2, -2 * z0 * z1, -2 * z0 * z2, z2 * z2 - z1 * z1,
-            -2 * z1 * z2};
-  }
 };
 
 /// Sums over the nodes of one arc, with rate_i = w_i 8 d_i^7.
@@ -225,34 +221,47 @@ void find_dip(Dips& dips, int feature, const Feature& f) {
   ++dips.size;
 }
 
-/// The dips of last time, each followed from where its peak was. False when one is lost.
+bool overlap(const Peak& p, const Peak& q) {
+  const double apart = std::abs(std::remainder(p.phi - q.phi, 2.0 * kPi));
+  return apart < std::max(p.high - p.low, q.high - q.low);
+}
+
+/// The places of last time, each followed from where it was; places of one circle stand one after the other.
+/// False when one is lost.
 bool follow_dips(Dips& dips, RodFeatures& features, const Rod& a, const Rod& b) {
-  for (int i = 0; i < features.tracked; ++i) {
-    const std::size_t k = static_cast<std::size_t>(i);
-    Dip& dip = dips.dip[static_cast<std::size_t>(dips.size++)];
-    set_dip(dip, features.circle[k], circle_of(features.circle[k], a, b));
-    if (!follow_peak(dip.g.side(), features.phi[k], dip.peaks.peak[0])) return false;
-    dip.peaks.size = 1;
-    features.phi[k] = dip.peaks.peak[0].phi;
-    dips.deepest = std::max(dips.deepest, depth_at(dip.g, dip.peaks.peak[0]));
+  for (std::size_t k = 0; k < features.tracked; ++k) {
+    const int feature = features.circle[k];
+    const bool again = k > 0 && features.circle[k - 1] == features.circle[k];
+    if (!again) {
+      Dip& fresh = dips.dip[static_cast<std::size_t>(dips.size++)];
+      set_dip(fresh, feature, circle_of(feature, a, b));
+      fresh.peaks.size = 0;
+    }
+    Dip& dip = dips.dip[static_cast<std::size_t>(dips.size - 1)];
+    Peak& peak = dip.peaks.peak[static_cast<std::size_t>(dip.peaks.size++)];
+    if (!follow_peak(dip.g.side(), features.phi[k], peak)) return false;
+    for (int i = 0; i + 1 < dip.peaks.size; ++i)  // two that have run into one another
+      if (overlap(dip.peaks.peak[static_cast<std::size_t>(i)], peak)) return false;
+    features.phi[k] = peak.phi;
+    dips.deepest = std::max(dips.deepest, depth_at(dip.g, peak));
   }
   return true;
 }
 
-/// Whether all dips are of the simple kind that can be followed, and where they are.
+/// Where the circles touch, if there are few enough places to follow and none goes all round.
 void track(const Dips& dips, RodFeatures& features) {
   features.tracked = 0;
-  if (dips.size > static_cast<int>(features.phi.size())) return;
+  std::size_t n = 0;
   for (int i = 0; i < dips.size; ++i) {
     const Dip& dip = dips.dip[static_cast<std::size_t>(i)];
-    if (dip.peaks.size != 1 || dip.peaks.peak[0].full) {
-      features.tracked = 0;
-      return;
+    for (int k = 0; k < dip.peaks.size; ++k) {
+      const Peak& peak = dip.peaks.peak[static_cast<std::size_t>(k)];
+      if (peak.full || n == features.phi.size()) return;
+      features.circle[n] = static_cast<std::uint8_t>(dip.feature);
+      features.phi[n++] = peak.phi;
     }
-    features.circle[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(dip.feature);
-    features.phi[static_cast<std::size_t>(i)] = dip.peaks.peak[0].phi;
-    ++features.tracked;
   }
+  features.tracked = static_cast<std::uint8_t>(n);
 }
 
 void add_arc(TouchSum& sum, const Dip& dip, const Arc& arc) {
@@ -281,36 +290,63 @@ void add_arc(TouchSum& sum, const Dip& dip, const Arc& arc) {
   add_arc_end(sum, circle, arc.to, arc.to_root, to_rate, rod, sign);
 }
 
-/// Whether the whole arc lies between the caps of the rod. The height along it is z0 + z1 cos: extreme at its
-/// ends, or where it passes 0 or pi.
-bool between_caps(const CircleInRod& g, const Arc& arc) {
-  if (std::abs(g.z0) + std::abs(g.z1) <= g.half_height) return true;
-  const auto height = [&](double phi) {
+/// Arcs of the circle with |z0 + z1 cos phi| < h: one, or two that mirror one another.
+ArcList arcs_between_caps(const CircleInRod& g) {
+  ArcList arcs;
+  const double sign = g.z1 < 0 ? -1.0 : 1.0, size = std::abs(g.z1);
+  const double low = (-g.half_height - sign * g.z0) / size,
+               high = (g.half_height - sign * g.z0) / size;  // of sign cos
+  if (!(size > 0) || (low <= -1.0 && high >= 1.0)) {
+    if (std::abs(g.z0) < g.half_height) arcs.add({0, 2.0 * kPi, -1, -1});
+    return arcs;
+  }
+  if (low >= 1.0 || high <= -1.0) return arcs;
+  const double turn = sign < 0 ? kPi : 0.0;
+  const double near = high >= 1.0 ? 0.0 : std::acos(high), far = low <= -1.0 ? kPi : std::acos(low);
+  if (high >= 1.0)
+    arcs.add({turn - far, turn + far, kCap, kCap});
+  else if (low <= -1.0)
+    arcs.add({turn + near, turn + 2.0 * kPi - near, kCap, kCap});
+  else {
+    arcs.add({turn + near, turn + far, kCap, kCap});
+    arcs.add({turn - far, turn - near, kCap, kCap});
+  }
+  return arcs;
+}
+
+/// Whether f > 0 all along a short arc: at its ends and in its middle.
+bool positive_along(const TrigQuadratic& f, const Arc& arc) {
+  if (arc.from_root < 0 || arc.to - arc.from > 1.0) return false;
+  for (const double phi : {arc.from, 0.5 * (arc.from + arc.to), arc.to}) {
     double s, c;
     sincos_poly(phi, s, c);
-    return std::abs(g.z0 + g.z1 * c + g.z2 * s);
-  };
-  if (std::floor(arc.from / kPi) < std::floor(arc.to / kPi)) return false;
-  return height(arc.from) < g.half_height && height(arc.to) < g.half_height;
+    if (f.at(c, s) <= 0) return false;
+  }
+  return true;
 }
 
 void add_dip(TouchSum& sum, const Dip& dip, double deepest) {
   const TrigQuadratic side = dip.g.side();
+  ArcList caps, open;  // open: those that the side may cut
+  const bool free = std::abs(dip.g.z0) + std::abs(dip.g.z1) <= dip.g.half_height;  // never beyond the caps
+  if (!free) {
+    caps = arcs_between_caps(dip.g);
+    for (int i = 0; i < caps.size; ++i) {
+      const Arc& arc = caps.arc[static_cast<std::size_t>(i)];
+      if (positive_along(side, arc))
+        add_arc(sum, dip, arc);
+      else
+        open.add(arc);
+    }
+    if (open.size == 0) return;
+  }
   const double floor = kNegligible * deepest * 2.0 * dip.g.radius;
-  ArcList caps;
-  caps.size = -1;  // found when first needed
   for (int i = 0; i < dip.peaks.size; ++i) {
     const Peak& peak = dip.peaks.peak[static_cast<std::size_t>(i)];
     if (peak.value <= floor) continue;
-    const Arc arc = arc_round(side, peak, kSide);
-    if (between_caps(dip.g, arc)) {
-      add_arc(sum, dip, arc);
-      continue;
-    }
-    if (caps.size < 0) caps = positive_arcs(dip.g.cap(), kCap);
     ArcList one;
-    one.add(arc);
-    const ArcList both = intersection(one, caps);
+    one.add(arc_round(side, peak, kSide));
+    const ArcList both = free ? one : intersection(one, open);
     for (int k = 0; k < both.size; ++k) add_arc(sum, dip, both.arc[static_cast<std::size_t>(k)]);
   }
 }

@@ -75,7 +75,8 @@ void visit(Archive& io, S& s) {
   io(p.pair), io(p.look_at), io(p.record), io(p.active), io(p.first), io(p.entry), io(p.shore),
       io(p.shore_stale);
   io(s.awake), io(s.next_landing), io(s.search_due);
-  io(s.rest_since), io(s.rest_anchor), io(s.at_rest), io(s.rest_speed), io(s.rest_force), io(s.rest_drift);
+  io(s.rest_since), io(s.rest_anchor), io(s.at_rest), io(s.last_watch), io(s.rest_speed), io(s.rest_force),
+      io(s.rest_drift);
   io(s.waited), io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.ledger);
 }
 

@@ -119,8 +119,13 @@ std::vector<std::uint32_t> find_shore(const State& state) {
 
 }  // namespace
 
+void wake_all(State& state) {
+  for (std::size_t i = 0; i < state.bodies.size(); ++i)
+    if (state.bodies.motion[i] == Motion::asleep) wake(state, i);
+}
+
 void sleep(const Model& model, State& state) {
-  if (!model.stepping.sleep) return;
+  if (!model.stepping.sleep || state.last_watch) return;
   Bodies& b = state.bodies;
   const double contact_time = kPi * std::sqrt(0.5 * model.kinds.front().mass / model.pellet_law.stiffness);
   const auto watch = std::max<std::int64_t>(1, std::llround(kWatchContacts * contact_time / model.step));

@@ -25,6 +25,8 @@ void gather_kick(const Model& model, State& state);
 void sleep(const Model& model, State& state);
 void rest(const Model& model, State& state, const Feeder& feeder);
 
+/// Ends all sleep.
+void wake_all(State& state);
 /// Brings airborne bodies to the present time.
 void catch_up(const Model& model, State& state);
 /// Adds what the pairs have lost since the last search to the ledger, in pair order.
