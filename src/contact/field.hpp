@@ -45,6 +45,11 @@ struct FieldPellet {
 /// when they touch or are close.
 Touch touch_field(const FieldPellet& a, const FieldPellet& b, double* gap = nullptr);
 
+/// With the half space z < 0, and with the outside of an upright tube of inner radius `tube` round the z
+/// axis.
+Touch touch_floor(const FieldPellet& a);
+Touch touch_tube(const FieldPellet& a, double tube);
+
 /// The wall of a mesh container, static.
 struct FieldWall {
   DepthField field;

@@ -14,17 +14,28 @@ Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
   return {bodies.position[i], bodies.axis[i], shape.radius, shape.half_height};
 }
 
-Touch touch_container(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t which,
-                      double& gap) {
+FieldPellet field_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
+  return {model.kinds[bodies.kind[i]].field.get(), {bodies.position[i], bodies.rotation[i]}, 1.0};
+}
+
+Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t which,
+                 double& gap) {
   const Vec3& x = bodies.position[a];
   const Kind& kind = model.kinds[bodies.kind[a]];
+  if (which == kSolid) return touch_container(field_of(model, bodies, a), *model.wall_field, &gap);
   const double tube = model.container.radius;
-  gap = (which == kFloor ? x.z() : tube - std::hypot(x.x(), x.y())) - kind.bounding_radius;
+  const bool floor = which == kFloor;
+  gap = (floor ? x.z() : tube - std::hypot(x.x(), x.y())) - kind.bounding_radius;
   if (gap > 0) return {};
-  if (kind.kernel == Kernel::sphere)
-    return which == kFloor ? touch_floor(x, kind.shape->radius) : touch_tube(x, kind.shape->radius, tube);
-  const Rod rod = rod_of(model, bodies, a);
-  return which == kFloor ? touch_floor(rod) : touch_tube(rod, tube);
+  switch (kind.kernel) {
+    case Kernel::sphere:
+      return floor ? touch_floor(x, kind.shape->radius) : touch_tube(x, kind.shape->radius, tube);
+    case Kernel::cylinder:
+      return floor ? touch_floor(rod_of(model, bodies, a)) : touch_tube(rod_of(model, bodies, a), tube);
+    case Kernel::field:
+      return floor ? touch_floor(field_of(model, bodies, a)) : touch_tube(field_of(model, bodies, a), tube);
+  }
+  return {};
 }
 
 /// Looks at the features that touched last time; at all of them once the bodies may have come into reach of
@@ -52,13 +63,15 @@ Touch touch_rods(const Rod& a, const Rod& b, double travelled, PairRecord& recor
 Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, double travelled,
                  PairRecord& record, double& gap) {
   const auto [a, b] = pair;
-  if (is_container(b)) return touch_container(model, bodies, a, b, gap);
+  if (is_container(b)) return touch_wall(model, bodies, a, b, gap);
   const Kind &ka = model.kinds[bodies.kind[a]], &kb = model.kinds[bodies.kind[b]];
   const Vec3 &xa = bodies.position[a], &xb = bodies.position[b];
   gap = (xa - xb).norm() - ka.bounding_radius - kb.bounding_radius;
   if (gap > 0) return {};
   if (ka.kernel == Kernel::sphere && kb.kernel == Kernel::sphere)
     return touch_spheres(xa, ka.shape->radius, xb, kb.shape->radius);
+  if (ka.kernel == Kernel::field)
+    return touch_field(field_of(model, bodies, a), field_of(model, bodies, b), &gap);
   return touch_rods(rod_of(model, bodies, a), rod_of(model, bodies, b), travelled, record, gap);
 }
 

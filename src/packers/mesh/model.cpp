@@ -49,6 +49,8 @@ std::vector<Kind> make_kinds(const Scene& scene) {
   const bool general = mixed || scene.container.kind == ContainerKind::mesh;
   if (general)
     for (Kind& kind : kinds) kind.kernel = Kernel::field;
+  for (Kind& kind : kinds)
+    if (kind.kernel == Kernel::field) kind.field = std::make_shared<FieldBody>(make_field_body(*kind.shape));
   return kinds;
 }
 
@@ -118,6 +120,11 @@ Model make_model(const Scene& scene) {
   Model model;
   model.kinds = make_kinds(scene);
   model.container = scene.container;
+  if (scene.container.kind == ContainerKind::mesh) {
+    double thickness = model.kinds.front().thickness;
+    for (const Kind& kind : model.kinds) thickness = std::min(thickness, kind.thickness);
+    model.wall_field = std::make_shared<FieldWall>(make_field_wall(scene.container, thickness));
+  }
   model.gravity = scene.gravity;
   if (scene.gravity.norm() > 0) model.up = -scene.gravity.normalized();
   model.pellet_law = find_law(scene, scene.pellet_contact, model.kinds);

@@ -2,11 +2,13 @@
 // The mesh packer's two records: Model never changes in a run, State is all that does (and all that a
 // checkpoint holds).
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "bed/scene.hpp"
 #include "contact/cylinder.hpp"
+#include "contact/field.hpp"
 #include "contact/law.hpp"
 #include "dynamics/bodies.hpp"
 #include "dynamics/neighbours.hpp"
@@ -22,11 +24,13 @@ struct Kind {
   double mass = 0;                            // [kg]
   Vec3 inertia = Vec3::Zero();                // principal moments [kg m2]
   double bounding_radius = 0, thickness = 0;  // [m]
+  std::shared_ptr<const FieldBody> field;     // made only for Kernel::field
 };
 
 struct Model {
   std::vector<Kind> kinds;
   Container container;
+  std::shared_ptr<const FieldWall> wall_field;  // made only for a container that was not recognised
   Vec3 gravity = Vec3::Zero(), up = Vec3::UnitZ();
   LawNumbers pellet_law, wall_law;
   double step = 0;  // [s]
