@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
-
 #include "io/atomic_file.hpp"
 #include "io/hdf5_image.hpp"
 #include "math/error.hpp"
@@ -51,8 +49,8 @@ Checkpoint read_checkpoint(const std::string& path, const std::string& case_text
     throw InputError(path, "a checkpoint of another case (case.toml was changed after the run began)",
                      "the case that the run began with",
                      "put the old case.toml back, or run the new case anew");
-  checkpoint.state.resize(content.size() - head.size());
-  std::memcpy(checkpoint.state.data(), content.data() + head.size(), checkpoint.state.size());
+  const auto* bytes = reinterpret_cast<const std::byte*>(content.data());
+  checkpoint.state.assign(bytes + head.size(), bytes + content.size());
   return checkpoint;
 }
 
