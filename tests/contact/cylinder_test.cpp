@@ -1,0 +1,212 @@
+// The cylinder kernel: force is the gradient of the energy, nothing is missed, and the pair keeps its
+// momentum.
+#include "contact/cylinder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "math/random.hpp"
+
+namespace packbed {
+namespace {
+
+constexpr double kRadius = 1.71e-3, kHalfHeight = 1.73e-3;
+
+Rod moved(const Rod& rod, const Vec3& way, const Vec3& turn) {
+  Rod out = rod;
+  out.centre += way;
+  const double angle = turn.norm();
+  if (angle > 0) out.axis = Eigen::AngleAxisd(angle, turn / angle) * rod.axis;
+  return out;
+}
+
+struct RodPair {
+  Rod a, b;
+};
+
+/// Random pairs pushed together until they overlap by 0.05 to 5 % of the diameter along a random direction:
+/// any orientation, nearly parallel and nearly square ones in turn.
+std::vector<RodPair> random_touches(unsigned count) {
+  std::vector<RodPair> pairs;
+  for (unsigned k = 0; pairs.size() < count; ++k) {
+    Random random(3, Stream::test, k);
+    Rod a{Vec3(0.01, 0.02, 0.03), random.on_sphere(), kRadius, kHalfHeight}, b = a;
+    b.axis = random.on_sphere();
+    if (k % 3 == 0) b.axis = (a.axis + 0.1 * random.on_sphere()).normalized();
+    if (k % 3 == 1)
+      b.axis = (a.axis.cross(random.on_sphere()).normalized() + 0.1 * random.on_sphere()).normalized();
+    const Vec3 direction = random.on_sphere();
+    double near = 0, far = 8e-3;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (near + far);
+      b.centre = a.centre + middle * direction;
+      (touch_cylinders(a, b).delta > 0 ? near : far) = middle;
+    }
+    b.centre = a.centre + (near - random.uniform(0.0005, 0.05) * 2 * kRadius) * direction;
+    pairs.push_back({a, b});
+  }
+  return pairs;
+}
+
+/// Greatest of -separation over many directions, refined: the overlap of two convex bodies, found without the
+/// kernel.
+double penetration_by_directions(const Rod& a, const Rod& b) {
+  const auto overlap = [&](const Vec3& n) {
+    const auto half = [&](const Rod& r) {
+      const double c = r.axis.dot(n);
+      return r.half_height * std::abs(c) + r.radius * std::sqrt(std::max(0.0, 1 - c * c));
+    };
+    return half(a) + half(b) - std::abs(n.dot(b.centre - a.centre));
+  };
+  Random random(9, Stream::test, 0);
+  Vec3 best = Vec3::UnitX();
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 n = random.on_sphere();
+    if (overlap(n) < overlap(best)) best = n;
+  }
+  for (double step = 0.05; step > 1e-7; step *= 0.7)
+    for (int i = 0; i < 40; ++i) {
+      const Vec3 n = (best + step * random.on_sphere()).normalized();
+      if (overlap(n) < overlap(best)) best = n;
+    }
+  return overlap(best);
+}
+
+TEST(Cylinders, ForceIsTheGradientOfTheEnergy) {
+  unsigned k = 0;
+  for (const RodPair& pair : random_touches(400)) {
+    Random random(4, Stream::test, ++k);
+    const Touch t = touch_cylinders(pair.a, pair.b);
+    const Vec3 way = random.on_sphere(), turn = random.on_sphere() / kRadius;
+    const Vec3 way_b = random.on_sphere(), turn_b = random.on_sphere() / kRadius;
+    const double h = 1e-10;
+    const double ahead =
+        touch_cylinders(moved(pair.a, h * way, h * turn), moved(pair.b, h * way_b, h * turn_b)).delta;
+    const double behind =
+        touch_cylinders(moved(pair.a, -h * way, -h * turn), moved(pair.b, -h * way_b, -h * turn_b)).delta;
+    const double found = -(t.gradient.dot(way - way_b) + t.torque_a.dot(turn) + t.torque_b.dot(turn_b));
+    const double scale = t.gradient.norm() + (t.torque_a.norm() + t.torque_b.norm()) / kRadius;
+    EXPECT_NEAR((ahead - behind) / (2 * h) / scale, found / scale, 1e-4) << "pair " << k;
+  }
+}
+
+TEST(Cylinders, ActionIsReactionAboutAnyPoint) {
+  for (const RodPair& pair : random_touches(200)) {
+    const Touch t = touch_cylinders(pair.a, pair.b);
+    const Vec3 sum = t.torque_a + t.torque_b + (pair.a.centre - pair.b.centre).cross(t.gradient);
+    EXPECT_LT(sum.norm(), 1e-9 * kRadius * t.gradient.norm() + 1e-15);
+  }
+}
+
+TEST(Cylinders, NoOverlapIsMissed) {
+  // delta is zero exactly where the bodies are apart: just inside and just outside of first touch, found by
+  // another way
+  int inside = 0;
+  for (unsigned k = 0; k < 150; ++k) {
+    Random random(5, Stream::test, k);
+    const Rod a{Vec3::Zero(), random.on_sphere(), kRadius, kHalfHeight};
+    Rod b{Vec3::Zero(), random.on_sphere(), kRadius, kHalfHeight};
+    b.centre = random.uniform(2.5e-3, 4.8e-3) * random.on_sphere();
+    const double depth = penetration_by_directions(a, b);
+    const double delta = touch_cylinders(a, b).delta;
+    if (depth > 0.005 * 2 * kRadius) {
+      EXPECT_GT(delta, 0) << "pair " << k << " overlaps by " << depth;
+      ++inside;
+    }
+    if (depth < 0) EXPECT_EQ(delta, 0) << "pair " << k << " is apart by " << -depth;
+    EXPECT_LE(separation(a, b), -depth + 1e-7) << "separation is a lower bound of the distance";
+  }
+  EXPECT_GT(inside, 30);
+}
+
+TEST(Cylinders, LevelParallelSidesAndCoaxialCapsTouch) {
+  const double depth = 1e-5;
+  const Rod a{Vec3::Zero(), Vec3::UnitZ(), kRadius, kHalfHeight};
+  const Rod beside{Vec3(2 * kRadius - depth, 0, 0), Vec3::UnitZ(), kRadius, kHalfHeight};
+  const Rod above{Vec3(0, 0, 2 * kHalfHeight - depth), Vec3::UnitZ(), kRadius, kHalfHeight};
+  for (const Rod& other : {beside, above}) {
+    const Touch t = touch_cylinders(a, other);
+    EXPECT_GT(t.delta, 0.2 * depth);
+    EXPECT_LT(t.delta, 2 * depth);
+    const Vec3 away = (a.centre - other.centre).normalized();
+    EXPECT_NEAR(t.gradient.normalized().dot(away), 1, 1e-9);
+    EXPECT_LT(t.torque_a.norm(), 1e-9 * kRadius);
+  }
+}
+
+TEST(Cylinders, FollowedPlacesGiveTheSameAsAFreshLook) {
+  int followed = 0;
+  unsigned k = 0;
+  for (const RodPair& pair : random_touches(600)) {
+    Random random(6, Stream::test, ++k);
+    RodFeatures features;
+    touch_cylinders(pair.a, pair.b, features);
+    const Rod a = moved(pair.a, 1e-6 * random.on_sphere(), 4e-4 * random.on_sphere());
+    if (features.tracked == 0 || features.gap < 4e-6) continue;
+    ++followed;
+    const double fresh = touch_cylinders(a, pair.b).delta;
+    EXPECT_NEAR(touch_cylinders(a, pair.b, features).delta, fresh, 1e-6 * fresh) << "pair " << k;
+  }
+  EXPECT_GT(followed, 200);
+}
+
+TEST(Cylinders, NoWorkRoundAClosedPath) {
+  // a circle of poses, translation and rotation together: the midpoint rule is spectral on it
+  for (const RodPair& pair : random_touches(20)) {
+    const Vec3 u = pair.a.axis.unitOrthogonal(), v = pair.a.axis.cross(u);
+    const double size = 2e-7;
+    double work = 0, largest = 0;
+    const int n = 400;
+    const auto at = [&](double phase) {
+      return moved(pair.a, size * (std::cos(phase) * u + std::sin(phase) * v),
+                   size / kRadius * (std::cos(phase) * v - std::sin(phase) * u));
+    };
+    for (int i = 0; i < n; ++i) {
+      const double p = 2 * kPi * i / n, h = kPi / n;
+      const Rod before = at(p - h), after = at(p + h);
+      const Touch t = touch_cylinders(at(p), pair.b);
+      const Vec3 turned = before.axis.cross(after.axis);
+      work += t.delta * (t.gradient.dot(after.centre - before.centre) + t.torque_a.dot(turned));
+      largest = std::max(largest, 0.5 * t.delta * t.delta);
+    }
+    EXPECT_LT(std::abs(work), 1e-5 * largest);
+  }
+}
+
+TEST(Cylinders, StiffnessIsEvenOverKindsOfTouch) {
+  // force per depth of flat, edge and corner-like touches on a floor at 0.5 % of the diameter
+  double softest = 1e300, stiffest = 0;
+  for (const double degrees : {0.0, 1.0, 5.0, 20.0, 45.0, 70.0, 85.0, 89.0, 90.0}) {
+    const double tilt = degrees * kPi / 180, depth = 0.005 * 2 * kRadius;
+    Rod rod{Vec3::Zero(), Vec3(std::sin(tilt), 0, std::cos(tilt)), kRadius, kHalfHeight};
+    rod.centre.z() = kHalfHeight * std::cos(tilt) + kRadius * std::sin(tilt) - depth;
+    const Touch t = touch_floor(rod);
+    const double stiffness = t.delta * t.gradient.norm() / depth;
+    softest = std::min(softest, stiffness);
+    stiffest = std::max(stiffest, stiffness);
+    EXPECT_NEAR(t.depth, depth, 0.02 * depth) << degrees;
+  }
+  EXPECT_LT(stiffest / softest, 5);
+}
+
+TEST(Cylinders, FloorAndTubeForcesAreGradients) {
+  for (unsigned k = 0; k < 300; ++k) {
+    Random random(7, Stream::test, k);
+    const bool tube = k % 2 == 1;
+    Rod rod{Vec3(0, 0, random.uniform(1e-3, 2.4e-3)), random.on_sphere(), kRadius, kHalfHeight};
+    if (tube) rod.centre = Vec3(random.uniform(0.0195, 0.0205), 0, 0.05);
+    const auto look = [&](const Rod& r) { return tube ? touch_tube(r, 0.02225) : touch_floor(r); };
+    const Touch t = look(rod);
+    if (t.delta < 1e-7) continue;
+    const Vec3 way = random.on_sphere(), turn = random.on_sphere() / kRadius;
+    const double h = 1e-10;
+    const double slope =
+        (look(moved(rod, h * way, h * turn)).delta - look(moved(rod, -h * way, -h * turn)).delta) / (2 * h);
+    const double scale = t.gradient.norm() + t.torque_a.norm() / kRadius;
+    EXPECT_NEAR(slope / scale, -(t.gradient.dot(way) + t.torque_a.dot(turn)) / scale, 1e-4) << k;
+  }
+}
+
+}  // namespace
+}  // namespace packbed
