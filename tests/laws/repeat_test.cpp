@@ -15,6 +15,7 @@ Scene pour() {
   Scene s = scene(ContainerKind::tube, {a38(), make_sphere("ball", 1.8e-3)});
   s.container = make_tube("tube", 20e-3, 60e-3);
   set_contact(s, 0.5, 0.4);
+  s.pellet_contact.stiffness = s.wall_contact.stiffness = 1e3;
   s.gravity = {0, 0, -kGravity};
   s.feed.kind = FeedKind::layers;
   s.feed.count = 60;
