@@ -19,7 +19,7 @@ Pellet pellet_of(const State& state, std::size_t i) {
   p.shape = b.kind[i];
   p.pose = {b.position[i], b.rotation[i]};
   p.velocity = b.velocity[i];
-  p.spin = b.spin[i];
+  p.spin = spin_of(b, i);  // bodies.spin is of the middle of the step
   p.fixed = b.motion[i] == Motion::fixed;
   return p;
 }
