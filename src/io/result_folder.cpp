@@ -1,8 +1,12 @@
 #include "io/result_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
@@ -60,6 +64,18 @@ void prove_room(const std::string& path, long long bytes_needed) {
         path, static_cast<double>(space.available) / 1e6, static_cast<double>(bytes_needed) / 1e6));
 }
 
+/// Held until the last copy goes, or the process does, however it ends. File systems that know no locks give
+/// none.
+std::shared_ptr<void> lock_of(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return nullptr;
+  std::shared_ptr<void> lock(nullptr, [fd](void*) { ::close(fd); });
+  if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw InputError(path, "a folder that another packbed is writing to", "a folder that no run is using",
+                     "wait until that run has ended, or give another folder with --out");
+  return lock;
+}
+
 void make_folder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
@@ -83,7 +99,7 @@ bool ResultFolder::has(std::string_view name) const {
 
 ResultFolder new_result_folder(const std::string& path, bool force, long long bytes_needed) {
   make_folder(path);
-  const ResultFolder folder{path};
+  const ResultFolder folder{path, lock_of(path)};
   std::error_code error;
   const bool empty = fs::is_empty(path, error);
   if (error)
@@ -108,10 +124,10 @@ ResultFolder new_result_folder(const std::string& path, bool force, long long by
 }
 
 ResultFolder interrupted_result_folder(const std::string& path) {
-  const ResultFolder folder{path};
   std::error_code error;
   if (!fs::is_directory(path, error))
     throw InputError(path, "no such folder", "the result folder of an interrupted run");
+  const ResultFolder folder{path, lock_of(path)};
   if (!folder.has(result_file::kCase))
     throw InputError(path, "a folder without case.toml", "the result folder of an interrupted run",
                      "start the run anew with `packbed run CASE`");

@@ -1,5 +1,6 @@
 #pragma once
 // The folder that a run leaves behind, and the names of what is in it (docs/results.md).
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,8 @@ inline constexpr std::string_view kSummary = "summary.json", kBed = "bed.h5", kB
 
 struct ResultFolder {
   std::string path;
+  std::shared_ptr<void> lock =
+      nullptr;  // of a folder that a run writes to: no second run may, until it ends or dies
 
   std::string file(std::string_view name) const;
   bool has(std::string_view name) const;
@@ -32,7 +35,7 @@ struct ResultFolder {
 ResultFolder new_result_folder(const std::string& path, bool force, long long bytes_needed = 1 << 20);
 
 /// The folder of an interrupted run; removes temporary files that a kill left behind. Throws InputError when
-/// it holds no case.toml or cannot be written, and tells what to do.
+/// it holds no case.toml, cannot be written or the run is still going on, and tells what to do.
 ResultFolder interrupted_result_folder(const std::string& path);
 
 /// The file itself, or the file `name` of the result folder that `path` names. Throws InputError when there

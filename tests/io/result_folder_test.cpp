@@ -29,10 +29,9 @@ std::string message_of(const Call& call) {
 
 TEST(ResultFolder, IsMadeWithItsParentsAndLeftEmpty) {
   const TemporaryFolder base;
-  const ResultFolder folder = new_result_folder(base / "a/b/c", false);
+  EXPECT_EQ(new_result_folder(base / "a/b/c", false).file("x.csv"), base / "a/b/c/x.csv");
   EXPECT_TRUE(fs::is_directory(base / "a/b/c"));
   EXPECT_TRUE(fs::is_empty(base / "a/b/c"));
-  EXPECT_EQ(folder.file("x.csv"), base / "a/b/c/x.csv");
   EXPECT_NO_THROW(new_result_folder(base / "a/b/c", false)) << "an empty folder may be used";
 }
 
@@ -114,6 +113,19 @@ TEST(ResultFolder, ResumeNeedsACaseAndClearsWhatAKillLeftBehind) {
   write_atomically(base / "bed.h5.123.tmp", "half");
   EXPECT_EQ(interrupted_result_folder(base.path()).path, base.path());
   EXPECT_EQ(base.count(), 1);
+}
+
+TEST(ResultFolder, TwoRunsNeverShareOne) {
+  const TemporaryFolder base;
+  {
+    const ResultFolder first = new_result_folder(base.path(), true);
+    write_atomically(first.file("case.toml"), "x");
+    const std::string message = message_of<InputError>([&] { interrupted_result_folder(base.path()); });
+    EXPECT_NE(message.find("another packbed"), std::string::npos) << message;
+    EXPECT_THROW(new_result_folder(base.path(), true), InputError);
+    EXPECT_EQ(read_file(base / "case.toml"), "x") << "--force removes nothing that a run is using";
+  }
+  EXPECT_NO_THROW(interrupted_result_folder(base.path())) << "the first run has ended";
 }
 
 TEST(ResultFolder, AFileOrItsFolderNamesTheFile) {
