@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/atomic_file.hpp"
-#include "io/hdf5_image.hpp"
+#include "io/seal.hpp"
 #include "math/error.hpp"
 #include "math/hash.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
-// HDF5 files that are built and read in memory and sealed: a last line holds length and hash of all bytes
-// before it. So HDF5 never meets a full disk, nor a file that is cut or changed (its reader can crash on
-// such), and equal content gives equal bytes (no time stamps).
+// HDF5 files that are built and read in memory, and sealed on disk (io/seal.hpp): so HDF5 never meets a full
+// disk, nor a file that is cut or changed (its reader can crash on such), and equal content gives equal bytes
+// (no time stamps).
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/seal.hpp"
 
 namespace packbed {
 
@@ -73,14 +75,5 @@ class Hdf5Reader {
   struct File;
   std::unique_ptr<File> file_;
 };
-
-/// The bytes with the sealing line behind them; `kind` is one short word, e.g. "bed".
-std::string sealed(std::string_view bytes, std::string_view kind);
-/// The bytes before the seal of the file at `path`. Throws InputError when the file is missing, has no seal
-/// of this kind, or is not what was sealed.
-std::string unsealed_file(const std::string& path, std::string_view kind);
-
-/// True when the file ends with the seal of that kind; its bytes are not looked at.
-bool is_sealed_as(const std::string& path, std::string_view kind);
 
 }  // namespace packbed
