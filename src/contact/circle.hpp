@@ -2,6 +2,7 @@
 // A circle in space and the arcs of it on which a quadratic of the position is positive: the rims of a
 // cylinder dipping into another cylinder, through a floor or into the wall of a tube.
 #include <array>
+#include <utility>
 
 #include "math/types.hpp"
 
@@ -97,5 +98,20 @@ inline constexpr std::array<double, kArcNodes> kEvenWeight = [] {
   for (double& w : weight) w = 2.0 / kArcNodes;
   return weight;
 }();
+
+/// Half width [rad] from which an arc is integrated in two halves: one rule alone would be off by up to 1e-3
+/// on a whole turn.
+inline constexpr double kWideArc = 1.0;
+
+/// panel(from, to) over an arc, or over its two halves when it is wide; gives what moving the ends of the arc
+/// changes in the sum, the middle going along.
+template <class Panel>
+std::pair<double, double> over_panels(const Arc& arc, const Panel& panel) {
+  if (arc.to - arc.from <= 2.0 * kWideArc) return panel(arc.from, arc.to);
+  const double middle = 0.5 * (arc.from + arc.to);
+  const auto first = panel(arc.from, middle), second = panel(middle, arc.to);
+  const double shared = 0.5 * (first.second + second.first);
+  return {first.first + shared, second.second + shared};
+}
 
 }  // namespace packbed

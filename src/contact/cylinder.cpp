@@ -264,14 +264,15 @@ void track(const Dips& dips, RodFeatures& features) {
   features.tracked = static_cast<std::uint8_t>(n);
 }
 
-void add_arc(TouchSum& sum, const Dip& dip, const Arc& arc) {
+/// Adds the nodes between two angles; gives what moving either of them changes in the sum.
+std::pair<double, double> add_panel(TouchSum& sum, const Dip& dip, double from, double to, bool full) {
   const Circle& circle = dip.circle;
   const Rod& rod = *dip.rod;
   const double radius = circle.radius, sign = dip.sign;
-  const double middle = 0.5 * (arc.from + arc.to), half = 0.5 * (arc.to - arc.from), length = radius * half;
+  const double middle = 0.5 * (from + to), half = 0.5 * (to - from), length = radius * half;
   ArcSums t;
-  sum_arc(dip.g, middle, half, arc.from_root < 0, t);
-  if (!(t.power > 0)) return;
+  sum_arc(dip.g, middle, half, full, t);
+  if (!(t.power > 0)) return {0, 0};
   // sum of x (relative to the origin of the sum) with weights k: k0 centre + radius (kc e1 + ks e2)
   const auto moment = [&](double k0, double kc, double ks) {
     return Vec3(length * (k0 * circle.centre + radius * (kc * circle.e1 + ks * circle.e2)));
@@ -283,11 +284,19 @@ void add_arc(TouchSum& sum, const Dip& dip, const Arc& arc) {
   const double second =
       2.0 * pressure.dot(circle.centre) + length * t.rate * (radius * radius - circle.centre.squaredNorm());
   sum.add_sums(length * t.power, sign * force, sign * torque, length * t.rate, pressure, second, t.deepest);
-  if (arc.from_root < 0) return;
-  const double from_rate = 0.5 * (length * (t.shift - t.spread) - radius * t.power);
-  const double to_rate = 0.5 * (length * (t.shift + t.spread) + radius * t.power);
-  add_arc_end(sum, circle, arc.from, arc.from_root, from_rate, rod, sign);
-  add_arc_end(sum, circle, arc.to, arc.to_root, to_rate, rod, sign);
+  return {0.5 * (length * (t.shift - t.spread) - radius * t.power),
+          0.5 * (length * (t.shift + t.spread) + radius * t.power)};
+}
+
+void add_arc(TouchSum& sum, const Dip& dip, const Arc& arc) {
+  if (arc.from_root < 0) {
+    add_panel(sum, dip, arc.from, arc.to, true);
+    return;
+  }
+  const auto ends =
+      over_panels(arc, [&](double from, double to) { return add_panel(sum, dip, from, to, false); });
+  add_arc_end(sum, dip.circle, arc.from, arc.from_root, ends.first, *dip.rod, dip.sign);
+  add_arc_end(sum, dip.circle, arc.to, arc.to_root, ends.second, *dip.rod, dip.sign);
 }
 
 /// Arcs of the circle with |z0 + z1 cos phi| < h: one, or two that mirror one another.

@@ -114,7 +114,9 @@ TEST(Cylinders, NoOverlapIsMissed) {
       EXPECT_GT(delta, 0) << "pair " << k << " overlaps by " << depth;
       ++inside;
     }
-    if (depth < 0) EXPECT_EQ(delta, 0) << "pair " << k << " is apart by " << -depth;
+    if (depth < 0) {
+      EXPECT_EQ(delta, 0) << "pair " << k << " is apart by " << -depth;
+    }
     EXPECT_LE(separation(a, b), -depth + 1e-7) << "separation is a lower bound of the distance";
   }
   EXPECT_GT(inside, 30);
