@@ -54,10 +54,13 @@ void climb(const TrigQuadratic& f, Peak& peak, double step, double low, double h
     if (!(peak.curvature < 0)) break;
     const double rise = f.slope(peak.cosine, peak.sine);
     step = -rise / peak.curvature;
-    if (std::abs(step) < 1e-3) {  // the parabola there gives the maximum to 1e-10
+    if (std::abs(step) < 1e-3) {  // close enough for the Taylor series: the maximum to some 1e-14
+      peak.third = f.third(peak.cosine, peak.sine);
+      step -= peak.third * step * step / (2.0 * peak.curvature);
       peak.phi += step;
-      peak.value += 0.5 * rise * step;
-      break;
+      peak.value += step * (rise + step * (0.5 * peak.curvature + step * peak.third / 6.0));
+      peak.curvature += step * peak.third;
+      return;
     }
   }
   peak.third = f.third(peak.cosine, peak.sine);

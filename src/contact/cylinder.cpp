@@ -60,14 +60,15 @@ struct ArcSums {
   double shift, spread;            // rate d', rate d' xi: what moving or spreading the nodes does
   double side, side_c, side_s;     // rate (d d / d a) / R, and its moments with cos and sin
   double axial, axial_c, axial_s;  // the share along the axis
-  double rate, rate_c, rate_s;
+  double rate, rate_c, rate_s, rate_cc, rate_cs;
   double deepest;
 };
 
 /// All nodes of one arc of angles middle +- half. A full turn takes evenly spaced nodes (spectral for
 /// periodic functions).
 PACKBED_WIDE void sum_arc(const CircleInRod& g, double middle, double half, bool full, ArcSums& out) {
-  Nodes power, shift, spread, side, side_c, side_s, axial, axial_c, axial_s, rate, rate_c, rate_s, deep;
+  Nodes power, shift, spread, side, side_c, side_s, axial, axial_c, axial_s, rate, rate_c, rate_s, rate_cc,
+      rate_cs, deep;
   const double per_radius = 1.0 / g.radius, per_height = 1.0 / g.half_height;
   const double* node = full ? kEvenNode.data() : kGaussNode.data();
   const double* weight = full ? kEvenWeight.data() : kGaussWeight.data();
@@ -96,11 +97,13 @@ PACKBED_WIDE void sum_arc(const CircleInRod& g, double middle, double half, bool
     rate[i] = r;
     rate_c[i] = r * c;
     rate_s[i] = r * s;
+    rate_cc[i] = r * c * c;
+    rate_cs[i] = r * c * s;
     deep[i] = std::min(a, b);
   }
-  out = {total(power), total(shift),   total(spread),  total(side), total(side_c), total(side_s),
-         total(axial), total(axial_c), total(axial_s), total(rate), total(rate_c), total(rate_s),
-         0.0};
+  out = {total(power),  total(shift),  total(spread),  total(side),    total(side_c),
+         total(side_s), total(axial),  total(axial_c), total(axial_s), total(rate),
+         total(rate_c), total(rate_s), total(rate_cc), total(rate_cs), 0.0};
   for (double d : deep) out.deepest = std::max(out.deepest, d);
 }
 
@@ -281,8 +284,15 @@ std::pair<double, double> add_panel(TouchSum& sum, const Dip& dip, double from, 
   const Vec3 force = length * (t.side * rod.centre + t.axial * rod.axis) - side;  // sum of rate * slope
   const Vec3 torque = side.cross(rod.centre) + axial.cross(rod.axis);             // sum of x cross that
   const Vec3 pressure = moment(t.rate, t.rate_c, t.rate_s);
-  const double second =
-      2.0 * pressure.dot(circle.centre) + length * t.rate * (radius * radius - circle.centre.squaredNorm());
+  const Vec3 swing = radius * length * (t.rate_c * circle.e1 + t.rate_s * circle.e2);
+  const Mat3 crossed = t.rate_cs * circle.e1 * circle.e2.transpose(),
+             shifted = circle.centre * swing.transpose();
+  const Mat3 second =
+      length * (t.rate * circle.centre * circle.centre.transpose() +
+                radius * radius *
+                    (t.rate_cc * circle.e1 * circle.e1.transpose() + crossed + crossed.transpose() +
+                     (t.rate - t.rate_cc) * circle.e2 * circle.e2.transpose())) +
+      shifted + shifted.transpose();
   sum.add_sums(length * t.power, sign * force, sign * torque, length * t.rate, pressure, second, t.deepest);
   return {0.5 * (length * (t.shift - t.spread) - radius * t.power),
           0.5 * (length * (t.shift + t.spread) + radius * t.power)};
@@ -395,7 +405,7 @@ double add_crossing(TouchSum& sum, const Rod& a, const Rod& b, double reference)
   const Vec3 by_a = -s * pull * across + p * (w + t * b.axis) - q * s * b.axis - 2.0 * c * by_sine2 * b.axis;
   const Vec3 torque = -a.axis.cross(by_a) + a.centre.cross(by_w);
   const Vec3 x = a.centre + s * a.axis + (a.radius / radii) * across;
-  sum.add_sums(power, -by_w, -torque, rate, rate * x, rate * x.squaredNorm(), std::min(lateral, end));
+  sum.add_sums(power, -by_w, -torque, rate, rate * x, rate * x * x.transpose(), std::min(lateral, end));
   return -1;
 }
 

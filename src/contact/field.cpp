@@ -46,7 +46,8 @@ struct Batch {
 /// Sums over points in the frame of the field: four partial sums each, added at the end, so that any width of
 /// vector gives the same bits. rate = w 8 d^7.
 struct Sums {
-  v4d power{}, rate{}, fx{}, fy{}, fz{}, tx{}, ty{}, tz{}, px{}, py{}, pz{}, second{};
+  v4d power{}, rate{}, fx{}, fy{}, fz{}, tx{}, ty{}, tz{}, px{}, py{}, pz{}, xx{}, yy{}, zz{}, xy{}, yz{},
+      zx{};
   double deepest = 0;
 };
 
@@ -75,7 +76,12 @@ PACKBED_WIDE void add_batch(const Batch& b, Sums& s) {
     s.px += rate * x;
     s.py += rate * y;
     s.pz += rate * z;
-    s.second += rate * (x * x + y * y + z * z);
+    s.xx += rate * x * x;
+    s.yy += rate * y * y;
+    s.zz += rate * z * z;
+    s.xy += rate * x * y;
+    s.yz += rate * y * z;
+    s.zx += rate * z * x;
     deepest = d > deepest ? d : deepest;
   }
   s.deepest = std::max({s.deepest, deepest[0], deepest[1], deepest[2], deepest[3]});
@@ -176,10 +182,14 @@ void add_to(TouchSum& out, const Sums& s, const Quat& rotation, const Vec3& cent
   const Vec3 force = point_scale * s7 * (turn * total(s.fx, s.fy, s.fz));
   const Vec3 turning = point_scale * s7 * field_scale * (turn * total(s.tx, s.ty, s.tz));
   const Vec3 place = point_scale * s7 * field_scale * (turn * total(s.px, s.py, s.pz));
-  const double second = point_scale * s7 * s2 * total(s.second);
+  const Vec3 square = total(s.xx, s.yy, s.zz), mixed = total(s.xy, s.yz, s.zx);
+  Mat3 own;
+  own << square.x(), mixed.x(), mixed.z(), mixed.x(), square.y(), mixed.y(), mixed.z(), mixed.y(), square.z();
+  const Mat3 shifted = centre * place.transpose();
+  const Mat3 second = point_scale * s7 * s2 * (turn * own * turn.transpose()) + shifted +
+                      shifted.transpose() + rate * centre * centre.transpose();
   out.add_sums(point_scale * s4 * s4 * total(s.power), sign * force, sign * (turning + centre.cross(force)),
-               rate, place + rate * centre, second + 2 * centre.dot(place) + rate * centre.squaredNorm(),
-               field_scale * s.deepest);
+               rate, place + rate * centre, second, field_scale * s.deepest);
 }
 
 }  // namespace

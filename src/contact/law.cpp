@@ -51,10 +51,23 @@ void add_torsion(ContactForce& out, const Touch& touch, const LawNumbers& law, c
     spring.twist = -moment / k;
   }
   const double stored = 0.5 * k * spring.twist * spring.twist;
-  out.moment = moment * normal;
+  out.moment += moment * normal;
   out.elastic += stored;
   out.rubbed -= 0.5 * step * (moment + spring.moment) * approach.turn + (stored - stored_before);
   spring.moment = moment;
+}
+
+/// The dashpot is spread over the patch as the pressure is: points of it that approach while others part
+/// brake rocking, which the mean approach does not see. A line touch brakes only the rocking along it, so a
+/// cylinder rolls freely on its side.
+void add_rocking(ContactForce& out, const Touch& touch, const Approach& approach, double damping, double step,
+                 const Vec3& normal, double normal_force, Spring& spring) {
+  Vec3 moment = -damping * normal.cross(touch.patch * approach.spin.cross(normal));
+  const double limit = normal_force * touch.patch_radius, size = moment.norm();
+  if (size > limit) moment *= size > 0 ? limit / size : 0.0;
+  out.moment += moment;
+  out.damped -= 0.5 * step * (moment + spring.rocking).dot(approach.spin);
+  spring.rocking = moment;
 }
 
 }  // namespace
@@ -72,9 +85,12 @@ ContactForce resolve(const Touch& touch, const LawNumbers& law, const Approach& 
   out.damped = 0.5 * (drag + spring.drag) * approach.closing_mid * step;
   spring.drag = drag;
   const double length = touch.gradient.norm();
-  if (!(law.friction > 0) || !(length > 0)) return out;
+  if (!(length > 0)) return out;
   const Vec3 normal = touch.gradient / length;
   const double normal_force = out.push * length;
+  if (damping > 0)
+    add_rocking(out, touch, approach, damping * length * length, step, normal, normal_force, spring);
+  if (!(law.friction > 0)) return out;
   add_friction(out, law, approach, step, normal, normal_force, spring);
   if (law.torsion) add_torsion(out, touch, law, approach, step, normal, normal_force, spring);
   return out;

@@ -27,6 +27,7 @@ struct Spring {
   double drag = 0;               // of the dashpot, along the gradient [N]
   Vec3 friction = Vec3::Zero();  // [N]
   double moment = 0;             // of torsion [N m]
+  Vec3 rocking = Vec3::Zero();   // moment of the dashpots against rocking [N m]
 };
 
 /// Motion of a against b, as the kernel's Touch sees it.
@@ -36,6 +37,7 @@ struct Approach {
   double inverse_mass = 0;    // of the motion along the gradient: g M^-1 g [1/kg]
   Vec3 slide = Vec3::Zero();  // velocity of a against b at the contact point, mid step [m/s]
   double turn = 0;            // spin of a against b about the normal, mid step [rad/s]
+  Vec3 spin = Vec3::Zero();   // of a against b, mid step [rad/s]
 };
 
 struct ContactForce {

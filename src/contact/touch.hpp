@@ -41,6 +41,7 @@ struct Touch {
   Vec3 torque_b = Vec3::Zero();  // the same of b, about b's centre [m]
   Vec3 point = Vec3::Zero();     // centre of pressure, world [m]
   double patch_radius = 0;       // root mean square distance of the pressure from `point` [m]
+  Mat3 patch = Mat3::Zero();     // second moment of the pressure about `point` [m2]
   double depth = 0;  // greatest distance of any feature point from the surface that it dips through [m]
 };
 
@@ -58,7 +59,7 @@ class TouchSum {
     force_ -= rate * slope;
     torque_ -= rate * x.cross(slope);
     centre_ += rate * x;
-    second_ += rate * x.squaredNorm();
+    second_ += rate * x * x.transpose();
     pressure_ += rate;
     if (d > depth_) depth_ = d;
   }
@@ -70,13 +71,13 @@ class TouchSum {
   /// Sums that a kernel has made itself: of w d^8, of rate * slope and its torque, of the pressure and its
   /// moments.
   void add_sums(double power, const Vec3& rate_slope, const Vec3& torque, double pressure,
-                const Vec3& pressure_x, double pressure_x2, double deepest) {
+                const Vec3& pressure_x, const Mat3& pressure_xx, double deepest) {
     sum_ += power;
     force_ -= rate_slope;
     torque_ -= torque;
     pressure_ += pressure;
     centre_ += pressure_x;
-    second_ += pressure_x2;
+    second_ += pressure_xx;
     depth_ = std::max(depth_, deepest);
   }
   bool empty() const { return !(sum_ > 0); }
@@ -94,14 +95,16 @@ class TouchSum {
     touch.torque_b = -torque + centre_b.cross(touch.gradient);
     const Vec3 centre = centre_ / pressure_;
     touch.point = origin_ + centre;
-    touch.patch_radius = std::sqrt(std::max(0.0, second_ / pressure_ - centre.squaredNorm()));
+    touch.patch = second_ / pressure_ - centre * centre.transpose();
+    touch.patch_radius = std::sqrt(std::max(0.0, touch.patch.trace()));
     touch.depth = depth_;
     return touch;
   }
 
  private:
   Vec3 origin_;
-  double sum_ = 0, pressure_ = 0, second_ = 0, depth_ = 0;
+  double sum_ = 0, pressure_ = 0, depth_ = 0;
+  Mat3 second_ = Mat3::Zero();
   Vec3 force_ = Vec3::Zero(), torque_ = Vec3::Zero(), centre_ = Vec3::Zero();
 };
 

@@ -12,7 +12,6 @@ namespace {
 Approach approach_of(const Model& model, const Bodies& bodies, const Touch& t, std::uint32_t a,
                      std::uint32_t b) {
   Approach out;
-  Vec3 spin = Vec3::Zero();
   const double half_step = 0.5 * model.step;
   const auto add = [&](std::uint32_t i, double side, const Vec3& torque) {
     const Vec3 turned = inverse_inertia_times(bodies, i, torque);
@@ -25,12 +24,12 @@ Approach approach_of(const Model& model, const Bodies& bodies, const Touch& t, s
                    half_step * turned.dot(bodies.torque[i]);
     out.closing_mid -= side * t.gradient.dot(bodies.velocity[i]) + torque.dot(bodies.spin[i]);
     out.slide += side * (bodies.velocity[i] + bodies.spin[i].cross(t.point - bodies.position[i]));
-    spin += side * bodies.spin[i];
+    out.spin += side * bodies.spin[i];
   };
   add(a, 1.0, t.torque_a);
   if (!is_container(b)) add(b, -1.0, t.torque_b);
   const double length = t.gradient.norm();
-  if (length > 0) out.turn = spin.dot(t.gradient) / length;
+  if (length > 0) out.turn = out.spin.dot(t.gradient) / length;
   return out;
 }
 
