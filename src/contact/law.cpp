@@ -3,6 +3,10 @@
 namespace packbed {
 namespace {
 
+// Of the dashpot that acts against rocking. All of it would hold a toppling cylinder back by its rim; a tenth
+// still ends the rocking of a flat touch within some ten periods.
+constexpr double kRockingShare = 0.1;
+
 /// Keeps the stretch in the tangent plane as the normal turns, without changing its length.
 void follow_normal(Vec3& stretch, const Vec3& normal) {
   const double before = stretch.squaredNorm();
@@ -62,7 +66,7 @@ void add_torsion(ContactForce& out, const Touch& touch, const LawNumbers& law, c
 /// cylinder rolls freely on its side.
 void add_rocking(ContactForce& out, const Touch& touch, const Approach& approach, double damping, double step,
                  const Vec3& normal, double normal_force, Spring& spring) {
-  Vec3 moment = -damping * normal.cross(touch.patch * approach.spin.cross(normal));
+  Vec3 moment = -kRockingShare * damping * normal.cross(touch.patch * approach.spin.cross(normal));
   const double limit = normal_force * touch.patch_radius, size = moment.norm();
   if (size > limit) moment *= size > 0 ? limit / size : 0.0;
   out.moment += moment;

@@ -33,7 +33,9 @@ Approach approach_of(const Model& model, const Bodies& bodies, const Touch& t, s
   return out;
 }
 
+/// The pair has come apart. What was still stored while the dashpot held the spring back has gone into it.
 void part(PairRecord& r) {
+  if (r.force.isZero(0)) r.damped += r.elastic;
   r.spring = Spring{};
   r.force.setZero();
   r.torque_a.setZero();
