@@ -3,82 +3,41 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
-#include <toml++/toml.h>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "mesh/build.hpp"
 #include "mesh/topology.hpp"
+#include "solids.hpp"
 
 namespace {
 
 using namespace packbed;
-using Profile = std::vector<std::pair<double, double>>;
+using namespace packbed::meshes;
 
-struct Body {
-  std::string name;
-  Profile profile;  // [mm]
-  bool step = false;
-  int stl_sides = 0;       // 0: no STL
-  double msh_size_mm = 0;  // 0: no MSH
-};
-
-std::vector<Body> read_bodies(const std::string& file) {
-  std::vector<Body> out;
-  for (const auto& [name, value] : toml::parse_file(file)) {
-    const toml::table& table = *value.as_table();
-    Body body{std::string(name.str()),
-              {},
-              table["step"].value_or(false),
-              table["stl_sides"].value_or(0),
-              table["msh_size_mm"].value_or(0.0)};
-    for (const auto& point : *table["profile_mm"].as_array())
-      body.profile.emplace_back((*point.as_array())[0].value_or(0.0), (*point.as_array())[1].value_or(0.0));
-    out.push_back(body);
-  }
-  return out;
-}
-
-// The profile in the xz plane, turned once round z.
-void build(const Body& body) {
-  namespace occ = gmsh::model::occ;
-  gmsh::model::add(body.name);
-  std::vector<int> points, lines;
-  for (const auto& [r, z] : body.profile) points.push_back(occ::addPoint(r, 0, z));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    lines.push_back(occ::addLine(points[i], points[(i + 1) % points.size()]));
-  const int face = occ::addPlaneSurface({occ::addCurveLoop(lines)});
-  gmsh::vectorpair made;
-  occ::revolve({{2, face}}, 0, 0, 0, 0, 0, 1, 2 * kPi, made);
-  gmsh::vectorpair left{{2, face}};
-  for (const int line : lines) left.emplace_back(1, line);
-  occ::remove(left);
-  occ::synchronize();
-}
-
-void write_step_and_msh(const Body& body, const std::string& folder) {
-  if (!body.step && body.msh_size_mm == 0) return;
-  build(body);
-  if (body.step) gmsh::write(folder + "/" + body.name + ".step");
-  if (body.msh_size_mm == 0) return;
+// Of the STEP file, as its users have it: OpenCASCADE leaves fused solids in a state that cannot always be
+// meshed.
+void write_msh(const toml::table& body, double size, const std::string& path) {
+  gmsh::clear();
+  gmsh::vectorpair solids;
+  gmsh::model::occ::importShapes(path + ".step", solids);
+  gmsh::model::occ::synchronize();
   gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
-  gmsh::option::setNumber("Mesh.MeshSizeMax", body.msh_size_mm);
+  gmsh::option::setNumber("Mesh.MeshSizeMax", size);
   gmsh::model::mesh::generate(3);
-  for (const auto& [version, ending] : {std::pair{4.1, ".msh"}, std::pair{2.2, "_22.msh"}}) {
-    gmsh::option::setNumber("Mesh.MshFileVersion", version);
-    gmsh::write(folder + "/" + body.name + ending);
-  }
+  gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
+  gmsh::write(path + ".msh");
+  if (!body["msh_22"].value_or(false)) return;
+  gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
+  gmsh::write(path + "_22.msh");
 }
 
-void write_stl(const Body& body, const std::string& folder) {
-  const TriangleMesh mesh = revolved(body.profile, body.stl_sides);
-  std::ofstream out(folder + "/" + body.name + ".stl", std::ios::binary);
-  std::string header = fmt::format("{}, lengths in mm", body.name);
+void write_stl(const toml::table& body, int sides, const std::string& name, const std::string& path) {
+  const TriangleMesh mesh = revolved(profile_of(body), sides);
+  std::ofstream out(path + ".stl", std::ios::binary);
+  std::string header = fmt::format("{}, lengths in mm", name);
   header.resize(80, ' ');
   out << header;
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
@@ -93,7 +52,15 @@ void write_stl(const Body& body, const std::string& folder) {
     const std::uint16_t attribute = 0;
     out.write(reinterpret_cast<const char*>(&attribute), sizeof attribute);
   }
-  if (!out.flush()) throw std::runtime_error("cannot write to " + folder);
+  if (!out.flush()) throw std::runtime_error("cannot write " + path + ".stl");
+}
+
+void write_body(const toml::table& body, const std::string& name, const std::string& path) {
+  gmsh::model::add(name);
+  build_solid(body);
+  gmsh::write(path + ".step");
+  if (const auto size = body["msh_size"].value<double>()) write_msh(body, *size, path);
+  if (const auto sides = body["stl_sides"].value<int>()) write_stl(body, *sides, name, path);
 }
 
 }  // namespace
@@ -103,19 +70,20 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: packbed-meshes BODIES.toml FOLDER\n");
     return 2;
   }
+  std::string name;
   try {
     gmsh::initialize();
     gmsh::option::setNumber("General.Terminal", 0);
-    for (const Body& body : read_bodies(argv[1])) {
-      write_step_and_msh(body, argv[2]);
-      if (body.stl_sides > 0) write_stl(body, argv[2]);
+    for (const auto& [key, value] : toml::parse_file(argv[1])) {
+      name = key.str();
+      write_body(*value.as_table(), name, std::string(argv[2]) + "/" + name);
     }
     gmsh::finalize();
   } catch (const std::string& e) {
-    std::fprintf(stderr, "packbed-meshes: %s\n", e.c_str());
+    std::fprintf(stderr, "packbed-meshes: %s: %s\n", name.c_str(), e.c_str());
     return 3;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "packbed-meshes: %s\n", e.what());
+    std::fprintf(stderr, "packbed-meshes: %s: %s\n", name.c_str(), e.what());
     return 3;
   }
 }
