@@ -1,0 +1,67 @@
+#pragma once
+// A pellet as bits, made once a rotation and laid on the lattice at any cell. The bits are the ones of the
+// project's rasteriser (centroid rule), moved so that they start at the box's own corner.
+//
+//   box of cells with one empty cell all round; bits (nz, words, rows): eight rows of y lie side by side, so
+//   that one cache line, and one wide register, holds eight of them
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lattice/rasterise.hpp"
+#include "shape/shape.hpp"
+
+namespace packbed {
+
+using Cell = std::array<int, 3>;  // x, y, z on the lattice
+
+struct Stamp {
+  Cell low{0, 0, 0};       // box's corner, counted from the cell that the pellet is in
+  Cell size{0, 0, 0};      // cells of the box, its empty border included
+  int words = 0;           // 64-bit words along x
+  int rows = 0;            // along y, a multiple of eight
+  std::int64_t count = 0;  // solid cells
+  std::vector<std::uint64_t> bits;
+
+  static constexpr std::size_t kPad = 8;  // empty words before and after, so that neighbours may be read
+  std::size_t column() const { return static_cast<std::size_t>(rows); }
+  std::size_t slice() const { return static_cast<std::size_t>(words) * column(); }
+  const std::uint64_t* data() const { return bits.data() + kPad; }
+  std::uint64_t* data() { return bits.data() + kPad; }
+};
+
+/// Makes stamps of one lattice; keeps its memory between calls (one a thread).
+class StampMaker {
+ public:
+  /// `largest`: bounding radius of the largest pellet [m].
+  StampMaker(double pitch, double largest);
+
+  /// The pellet with its centre of mass at `phase` [cells] from the centre of its cell. Always rasterised
+  /// from the shape itself, so that no number of rotations deforms it.
+  Stamp make(const Shape& shape, double scale, const Quat& rotation, const Vec3& phase);
+
+  /// The same with a phase that is chosen so that the number of cells is near the pellet's volume: within
+  /// 0.25 % where one of forty gives that, else as near as they come.
+  Stamp make_true(const Shape& shape, double scale, const Quat& rotation, Vec3& phase);
+
+ private:
+  GridFrame frame_;
+  int middle_;  // the pellet's cell in frame_, along each axis
+  Rasteriser rasteriser_;
+};
+
+/// Calls visit(x, y, z) for every solid cell, counted from the pellet's cell, in the order of the bits.
+template <class Visit>
+void for_each_cell(const Stamp& stamp, const Visit& visit) {
+  for (int z = 0; z < stamp.size[2]; ++z)
+    for (int w = 0; w < stamp.words; ++w)
+      for (int y = 0; y < stamp.size[1]; ++y) {
+        std::uint64_t bits =
+            stamp.data()[static_cast<std::size_t>(z) * stamp.slice() +
+                         static_cast<std::size_t>(w) * stamp.column() + static_cast<std::size_t>(y)];
+        for (; bits; bits &= bits - 1)
+          visit(stamp.low[0] + 64 * w + __builtin_ctzll(bits), stamp.low[1] + y, stamp.low[2] + z);
+      }
+}
+
+}  // namespace packbed

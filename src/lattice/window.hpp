@@ -1,0 +1,33 @@
+#pragma once
+// The loops of the lattice: a stamp against the window of the lattice that it lies on, word by word, eight
+// rows at a time. Bits only, so that wide and narrow machines agree.
+#include <cstddef>
+#include <cstdint>
+
+namespace packbed {
+
+/// Where the words of a stamp meet the words of the lattice.
+struct Window {
+  std::uint64_t* lattice = nullptr;           // word of the first row, word and slice
+  std::size_t lattice_column, lattice_slice;  // words from one x-word, one slice, to the next
+  int shift;                                  // bits of x that the stamp is moved by within a word
+  const std::uint64_t* stamp = nullptr;       // first row, word and slice of the stamp
+  std::size_t stamp_column, stamp_slice;
+  int slices, words, rows;
+};
+
+/// Whether any bit of the stamp is set in the lattice.
+bool window_hits(const Window& w);
+/// The same for the bits that stamp moved by `step` words has and the stamp has not (y: one row; z: one
+/// slice).
+bool window_hits_ahead(const Window& w, std::ptrdiff_t step);
+/// The same for a move by one bit along x, up or down.
+bool window_hits_ahead_x(const Window& w, bool up);
+/// Number of bits of the stamp that are set in the lattice.
+std::int64_t window_count(const Window& w);
+/// Exclusive-or of the stamp into the lattice: writes a pellet that is not there, erases one that is.
+void window_flip(const Window& w);
+/// Or of the stamp into the lattice.
+void window_write(const Window& w);
+
+}  // namespace packbed
