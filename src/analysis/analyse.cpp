@@ -1,7 +1,6 @@
 #include "analysis/analyse.hpp"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "analysis/radial.hpp"
 #include "bed/voxelise.hpp"
 #include "lattice/count.hpp"
+#include "math/clock.hpp"
 #include "math/error.hpp"
 
 namespace packbed {
@@ -25,11 +25,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Processor time of all threads [s].
-double cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+bool same_frame(const GridFrame& a, const GridFrame& b) {
+  return a.size == b.size && a.pitch == b.pitch && a.origin == b.origin;
 }
 
 double wall_radius(const Container& c) {
@@ -150,7 +147,7 @@ AnalysisResult analyse_bed(const PackedBed& bed, const AnalysisWish& wish, Voxel
   if (wish.voxels) {
     VoxelGrid own;
     VoxelGrid& grid = grid_out ? *grid_out : own;
-    grid = voxelise(bed, layout.frame);
+    if (!same_frame(grid.frame, layout.frame)) grid = voxelise(bed, layout.frame);
     result.voxelise_cpu_s = cpu_seconds() - begin;
     analyse_voxels(grid, container_space(bed.container, layout.frame), layout, result);
   }

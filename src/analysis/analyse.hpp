@@ -7,8 +7,9 @@
 
 namespace packbed {
 
-/// All that the wish asks for. Voxels are made when wish.voxels is set; `grid`, when given, receives them.
-/// Without voxels the profiles hold the exact curves only. Throws InputError for a pitch that cannot be.
+/// All that the wish asks for. Voxels are made when wish.voxels is set; `grid`, when given, receives them. A
+/// grid of this bed that is there already, in the frame that frame_for(bed, wish.voxel) gives, is taken as it
+/// is. Without voxels the profiles hold the exact curves only. Throws InputError for a pitch that cannot be.
 AnalysisResult analyse_bed(const PackedBed& bed, const AnalysisWish& wish, VoxelGrid* grid = nullptr);
 
 /// Profiles of a grid that came from elsewhere (a CT volume, a lattice packer), inside an upright tube of

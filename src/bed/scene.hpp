@@ -71,6 +71,20 @@ struct Stepping {
   double duration = 0;        // run exactly so long, whatever happens [s]; 0: until at rest
 };
 
+/// How the lattice packers move pellets (methods digipac, digicgp, digidem; docs/lattice_packers.md).
+struct LatticeRules {
+  double voxel = 0;                   // edge of a cell [m]; 0: AnalysisWish::voxel
+  double rebound = 0.5;               // rebounding probability: 0 never up, 1 up as often as down
+  double max_angle = 10 * kPi / 180;  // of one rotation [rad]
+  double max_sweep = 3;               // digicgp: way of the farthest point in one rotation, at most [cells]
+  double rotation_share = 0.15;       // of a pellet's steps in which it also tries to rotate
+  int interval = 0;           // steps that stand for Feed::interval; 0: what a pellet needs to fall clear
+  int rest_window = 200;      // steps
+  double rest_sinking = 0.5;  // mean sinking over rest_window under which a bed is at rest [cells]
+  int max_steps = 200000;     // after which the run gives up waiting for rest
+  double memory_MB = 1024;    // largest lattice
+};
+
 struct AnalysisWish {
   double voxel = 1e-4;        // pitch of the grid [m]
   double from_diameters = 3;  // middle section for the bulk density: from this height ...
@@ -100,6 +114,7 @@ struct Scene {
   ContactLaw pellet_contact, wall_contact;
   Feed feed;
   Stepping stepping;
+  LatticeRules lattice;
   AnalysisWish analysis;
   OutputWish output;
   double overlap_limit =

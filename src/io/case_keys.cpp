@@ -28,8 +28,11 @@ void general_keys(Fields& f, CaseRecord& r) {
           .meaning = "folder that relative file names count from; default: the one of the case file"},
          r.folder);
   f.text({.name = "name", .meaning = "of the case; default: the file's name"}, r.name);
-  f.choice({.name = "method", .meaning = "how to pack: mesh = rigid bodies with penalty contact"}, r.method,
-           {"mesh"});
+  f.choice({.name = "method",
+            .meaning =
+                "how to pack: mesh = rigid bodies with penalty contact; on a lattice of voxels, digipac = at "
+                "random, digicgp = guided by collisions"},
+           r.method, {"mesh", "digipac", "digicgp"});
   f.choice(
       {.name = "kernel", .meaning = "contact kernel; auto = the fastest exact one that the shapes allow"},
       r.kernel, {"auto", "sphere", "cylinder", "field"});
@@ -297,6 +300,50 @@ void stepping_keys(Fields& f, Stepping& r) {
          r.duration);
 }
 
+void lattice_keys(Fields& f, LatticeRules& r) {
+  f.real({.name = "voxel",
+          .meaning = "edge of a cell of the lattice",
+          .dimension = D::length,
+          .range = above_zero_to(1),
+          .automatic = "analysis.voxel"},
+         r.voxel);
+  f.real({.name = "rebound",
+          .meaning = "rebounding probability: 0 = never up, 1 = up as often as down",
+          .range = between(0, 1, "it is a probability")},
+         r.rebound);
+  f.real({.name = "max_angle",
+          .meaning = "largest angle of one rotation",
+          .dimension = D::angle,
+          .range = between(0, kPi, "half a turn is the most")},
+         r.max_angle);
+  f.real({.name = "max_sweep",
+          .meaning = "digicgp: way of a pellet's farthest point in one rotation, at most, in voxels",
+          .range = above_zero_to(1e3)},
+         r.max_sweep);
+  f.real({.name = "rotation_share",
+          .meaning = "of a pellet's steps in which it tries to rotate",
+          .range = between(0, 1, "it is a probability")},
+         r.rotation_share);
+  f.whole({.name = "interval",
+           .meaning = "steps that stand for feed.interval; 0 = what a pellet needs to fall clear",
+           .range = between(0, 1e6)},
+          r.interval);
+  f.whole(
+      {.name = "rest_window", .meaning = "steps that rest_sinking is watched over", .range = between(1, 1e6)},
+      r.rest_window);
+  f.real({.name = "rest_sinking",
+          .meaning = "mean sinking over rest_window under which a bed is at rest, in voxels",
+          .range = above_zero_to(1e3)},
+         r.rest_sinking);
+  f.whole({.name = "max_steps",
+           .meaning = "after which the run gives up waiting for rest",
+           .range = between(1, 2e9)},
+          r.max_steps);
+  f.real(
+      {.name = "memory_MB", .meaning = "largest lattice; a larger one is refused", .range = between(1, 1e6)},
+      r.memory_MB);
+}
+
 void analysis_keys(Fields& f, AnalysisWish& r) {
   f.real({.name = "voxel", .meaning = "pitch of the grid", .dimension = D::length, .range = above_zero_to(1)},
          r.voxel);
@@ -361,6 +408,8 @@ void visit_case(Fields& f, CaseRecord& r) {
   f.section("feed", "How pellets enter.", [&] { feed_keys(f, r); });
   f.section("stepping", "How the packer moves bodies, and when it calls the bed at rest.",
             [&] { stepping_keys(f, r.stepping); });
+  f.section("lattice", "How the lattice packers move pellets; the mesh packer does without.",
+            [&] { lattice_keys(f, r.lattice); });
   f.section("analysis", "What is measured of the bed.", [&] { analysis_keys(f, r.analysis); });
   f.section("output", "What is written.", [&] { output_keys(f, r.output); });
 }

@@ -50,6 +50,7 @@ struct CaseRecord {
   std::string feed_kind = "layers", feed_csv;
   std::vector<PlacedRecord> placed;
   Stepping stepping;
+  LatticeRules lattice;
   AnalysisWish analysis;
   OutputWish output;
 };

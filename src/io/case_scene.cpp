@@ -224,6 +224,7 @@ Scene make_scene(const CaseRecord& r, const std::string& case_file, std::vector<
   scene.pellet_contact = contact_law(r.pellet_contact);
   scene.wall_contact = contact_law(r.wall_contact);
   scene.stepping = r.stepping;
+  scene.lattice = r.lattice;
   scene.analysis = r.analysis;
   scene.output = r.output;
   scene.feed = make_feed(r, problems);

@@ -95,4 +95,31 @@ void Occupancy::flip(const Stamp& stamp, const Cell& at) {
   window_flip(window(stamp, at));
 }
 
+void Occupancy::move(const Stamp& stamp, Cell& at, int axis, int sign) {
+  if (axis == 0) {
+    flip(stamp, at);
+    at[0] += sign;
+    flip(stamp, at);
+    return;
+  }
+  // z: one slice outside of the stamp is read on one side; the pad is too short for it, so the border goes
+  // apart
+  Window w = window(stamp, at);
+  at[size(axis)] += sign;
+  if (axis == 1) return window_move(w, sign);
+  if (sign > 0) w.lattice += w.lattice_slice, w.stamp += w.stamp_slice;
+  --w.slices;
+  window_move(w, sign * static_cast<std::ptrdiff_t>(stamp.slice()));
+}
+
+void Occupancy::write(const Stamp& stamp, const Cell& at) {
+  window_write(window(stamp, at));
+}
+
+std::int64_t Occupancy::count_open() const {
+  std::int64_t open = 0;
+  for (const std::uint64_t word : bits_) open += std::popcount(~word);
+  return open;
+}
+
 }  // namespace packbed

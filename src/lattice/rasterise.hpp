@@ -25,6 +25,7 @@ struct BitBlock {
   int word = 0, words = 0;          // first word of a grid row (may be negative) and number of words
   int y = 0, ny = 0;                // first row and number of rows
   int z = 0, nz = 0;                // first slice and number of slices
+  std::int64_t count = -1;          // bits set, where the rasteriser knows; else -1
   std::vector<std::uint64_t> bits;  // (nz, ny, words); bit i of word w is voxel x = 64 (word + w) + i
 
   std::uint64_t* row(int j, int k) {
@@ -63,8 +64,9 @@ class Rasteriser {
 
   GridFrame frame_;
   BitBlock block_;
-  std::vector<Vec3> posed_;      // vertices in voxels, voxel centres at whole numbers
-  std::vector<Corner> corners_;  // the same, snapped, counted from corner_base_
+  std::vector<std::int32_t> intervals_;  // of the rows of one slice
+  std::vector<Vec3> posed_;              // vertices in voxels, voxel centres at whole numbers
+  std::vector<Corner> corners_;          // the same, snapped, counted from corner_base_
   std::array<std::int64_t, 3> corner_base_{0, 0, 0};
   std::int64_t rows_ = 0, open_rows_ = 0;
 };

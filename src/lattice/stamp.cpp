@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "math/simd.hpp"
+
 namespace packbed {
 namespace {
 
@@ -37,6 +39,7 @@ GridFrame frame_round(double pitch, double largest) {
   return frame;
 }
 
+/// First and last place where something is set.
 struct Extent {
   int low = std::numeric_limits<int>::max(), high = std::numeric_limits<int>::min();
   void add(int v) {
@@ -46,6 +49,30 @@ struct Extent {
   int size() const { return high - low + 1; }
 };
 
+/// Ors the rows of one slice (n words) into `all` and returns the or of them all.
+PACKBED_WIDE std::uint64_t gather_rows(const std::uint64_t* rows, int n, std::uint64_t* all) {
+  std::uint64_t any = 0;
+  for (int j = 0; j < n; ++j) {
+    all[j] |= rows[j];
+    any |= rows[j];
+  }
+  return any;
+}
+
+/// Rows of one word each, moved down by `right` bits, or up by one for -1.
+PACKBED_WIDE void move_rows(const std::uint64_t* from, int n, int right, std::uint64_t* to) {
+  if (right < 0)
+    for (int j = 0; j < n; ++j) to[j] = from[j] << 1;
+  else
+    for (int j = 0; j < n; ++j) to[j] = from[j] >> right;
+}
+
+PACKBED_WIDE std::int64_t count_bits(const std::uint64_t* words, std::size_t n) {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) count += std::popcount(words[i]);
+  return count;
+}
+
 /// Word `w` of a row that starts at bit `first` of the block's row.
 std::uint64_t word_at(const std::uint64_t* row, int words, int first, int w) {
   const int bit = first + 64 * w;  // >= -1: the border reaches one bit before the row
@@ -54,35 +81,50 @@ std::uint64_t word_at(const std::uint64_t* row, int words, int first, int w) {
   return (at(word) >> shift) | ((at(word + 1) << 1) << (63 - shift));
 }
 
-Stamp stamp_of(const BitBlock& block, int middle) {
+struct Box {
   Extent x, y, z;
+};
+
+/// Where a block has bits.
+Box box_of(const BitBlock& block) {
+  const int row_words = block.ny * block.words;
+  std::vector<std::uint64_t> all(static_cast<std::size_t>(row_words), 0);  // of all slices
+  Box box;
   for (int k = 0; k < block.nz; ++k)
-    for (int j = 0; j < block.ny; ++j)
-      for (int w = 0; w < block.words; ++w) {
-        const std::uint64_t bits = block.row(j, k)[w];
-        if (!bits) continue;
-        x.add(64 * w + std::countr_zero(bits));
-        x.add(64 * w + 63 - std::countl_zero(bits));
-        y.add(j);
-        z.add(k);
-      }
+    if (gather_rows(block.row(0, k), row_words, all.data())) box.z.add(k);
+  for (int j = 0; j < block.ny; ++j)
+    for (int w = 0; w < block.words; ++w) {
+      const std::uint64_t bits = all[static_cast<std::size_t>(j * block.words + w)];
+      if (!bits) continue;
+      box.y.add(j);
+      box.x.add(64 * w + std::countr_zero(bits));
+      box.x.add(64 * w + 63 - std::countl_zero(bits));
+    }
+  return box;
+}
+
+Stamp stamp_of(const BitBlock& block, int middle) {
+  const Box box = box_of(block);
   Stamp stamp;
-  if (x.low > x.high) return stamp;
-  stamp.size = {x.size() + 2, y.size() + 2, z.size() + 2};
-  stamp.low = {64 * block.word + x.low - 1 - middle, block.y + y.low - 1 - middle,
-               block.z + z.low - 1 - middle};
+  if (box.x.low > box.x.high) return stamp;
+  stamp.size = {box.x.size() + 2, box.y.size() + 2, box.z.size() + 2};
+  stamp.low = {64 * block.word + box.x.low - 1 - middle, block.y + box.y.low - 1 - middle,
+               block.z + box.z.low - 1 - middle};
   stamp.words = (stamp.size[0] + 63) / 64;
   stamp.rows = (stamp.size[1] + 7) / 8 * 8;
   stamp.bits.assign(2 * Stamp::kPad + static_cast<std::size_t>(stamp.size[2]) * stamp.slice(), 0);
-  for (int k = 0; k < z.size(); ++k)
+  for (int k = 0; k < box.z.size(); ++k)
     for (int w = 0; w < stamp.words; ++w) {
       std::uint64_t* to = stamp.data() + static_cast<std::size_t>(k + 1) * stamp.slice() +
                           static_cast<std::size_t>(w) * stamp.column() + 1;
-      for (int j = 0; j < y.size(); ++j) {
-        to[j] = word_at(block.row(y.low + j, z.low + k), block.words, x.low - 1, w);
-        stamp.count += std::popcount(to[j]);
-      }
+      const std::uint64_t* from = block.row(box.y.low, box.z.low + k);
+      if (block.words == 1 && stamp.words == 1)
+        move_rows(from, box.y.size(), box.x.low - 1, to);
+      else
+        for (int j = 0; j < box.y.size(); ++j, from += block.words)
+          to[j] = word_at(from, block.words, box.x.low - 1, w);
     }
+  stamp.count = block.count >= 0 ? block.count : count_bits(stamp.bits.data(), stamp.bits.size());
   return stamp;
 }
 

@@ -23,10 +23,15 @@ bool window_hits(const Window& w);
 bool window_hits_ahead(const Window& w, std::ptrdiff_t step);
 /// The same for a move by one bit along x, up or down.
 bool window_hits_ahead_x(const Window& w, bool up);
+/// One column of rows of what a move by one cell along `axis` would enter and finds taken, into found[rows].
+/// False when there is none.
+bool window_column_ahead(const Window& w, int x, int z, int axis, int sign, std::uint64_t* found);
 /// Number of bits of the stamp that are set in the lattice.
 std::int64_t window_count(const Window& w);
 /// Exclusive-or of the stamp into the lattice: writes a pellet that is not there, erases one that is.
 void window_flip(const Window& w);
+/// The flip of the stamp and of the stamp moved as in window_hits_ahead (y, z), in one go.
+void window_move(const Window& w, std::ptrdiff_t step);
 /// Or of the stamp into the lattice.
 void window_write(const Window& w);
 

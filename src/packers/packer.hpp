@@ -10,12 +10,14 @@
 #include "bed/packed_bed.hpp"
 #include "bed/run_record.hpp"
 #include "bed/scene.hpp"
+#include "lattice/voxel_grid.hpp"
 
 namespace packbed {
 
 struct Progress {
   double fraction = 0;  // of the whole run, estimated, 0 to 1
   double simulated_s = 0;
+  std::int64_t steps = 0;
   int fed = 0, asked = 0;
   std::string phase;  // "feeding", "settling", "waiting for room"
 };
@@ -43,6 +45,8 @@ struct Watch {
 
 struct PackResult {
   PackedBed bed;
+  VoxelGrid
+      grid;  // of the packer, where it has one, in the frame that frame_for(bed, its pitch) gives; else empty
   RunRecord record;
   bool stopped = false;  // by Watch::stop; the last checkpoint continues it
 };
@@ -50,5 +54,12 @@ struct PackResult {
 /// Rigid bodies with penalty contact. `state` continues from a checkpoint of the same scene, bit for bit.
 /// Throws InputError for a scene that cannot be packed as given.
 PackResult pack_mesh(const Scene& scene, const Watch& watch, std::span<const std::byte> state = {});
+
+/// Pellets and container in cells of a lattice: methods digipac, digicgp and digidem. `state` as above.
+/// Throws InputError also for pellets too thin, containers that close and lattices too large at this voxel
+/// size.
+PackResult pack_lattice(const Scene& scene, const Watch& watch, std::span<const std::byte> state = {});
+/// Whether a method packs on a lattice.
+bool packs_on_lattice(const std::string& method);
 
 }  // namespace packbed

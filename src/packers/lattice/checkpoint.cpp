@@ -1,0 +1,47 @@
+#include "packers/lattice/checkpoint.hpp"
+
+#include "packers/archive.hpp"
+
+namespace packbed::lattice {
+namespace {
+
+constexpr std::uint64_t kFormat = 0x706b6264'4c000001;  // changes with any change of State
+
+/// Names every member once, for writing and for reading.
+template <class Archive, class S>
+void visit(Archive& io, S& s) {
+  io(s.id), io(s.kind), io(s.scale), io(s.fixed), io(s.rotation), io(s.cell), io(s.phase);
+  io(s.waiting);
+  io(s.steps), io(s.mean_height), io(s.sinking), io(s.window_since), io(s.at_rest), io(s.waited);
+  io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.tally);
+}
+
+}  // namespace
+
+std::vector<std::byte> save(const State& state, const Feeder& feeder) {
+  ArchiveWriter writer;
+  writer(kFormat);
+  visit(writer, state);
+  writer(feeder.save());
+  return std::move(writer.bytes);
+}
+
+void restore(std::span<const std::byte> bytes, const Model& model, State& state, Feeder& feeder) {
+  ArchiveReader reader(bytes, "lattice packing");
+  std::uint64_t format = 0;
+  reader(format);
+  if (format != kFormat) reader.fail();
+  visit(reader, state);
+  std::vector<std::byte> feed;
+  reader(feed);
+  if (!reader.at_end()) reader.fail();
+  feeder.restore(feed);
+  StampMaker maker(model.frame.pitch, model.largest);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state.stamp.push_back(
+        maker.make(*model.kind(state.kind[i]).shape, state.scale[i], state.rotation[i], state.phase[i]));
+    state.lattice.flip(state.stamp[i], state.cell[i]);
+  }
+}
+
+}  // namespace packbed::lattice
