@@ -149,7 +149,7 @@ TEST(CaseRefuses, WrongWordOfAList) {
   expect_refused("\"layers\"", "\"layer\"",
                  {"bed.toml:14: feed.kind", "\"layers\", \"pour\", \"placed\"", "did you mean \"layers\"?"});
   expect_refused("\"tube\"", "3", {"container.shape", "found 3"});
-  EXPECT_NE(refusal("method = \"digipac\"\n" + kCase).find("\"mesh\""), std::string::npos);
+  EXPECT_NE(refusal("method = \"digipak\"\n" + kCase).find("\"mesh\""), std::string::npos);
 }
 
 TEST(CaseRefuses, KeyThatHasNoMeaningHere) {
