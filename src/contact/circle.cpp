@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "math/simd.hpp"
 #include "math/trig.hpp"
@@ -15,6 +16,8 @@ constexpr double kStep = 2.0 * kPi / kSamples;
 // Half width [rad] under which the ends of an arc come from the Taylor series at its peak: right to a few
 // thousandths of the arc, where d^8 has long vanished.
 constexpr double kNarrow = 0.2;
+// Newton's step towards a maximum that is the last one taken [rad].
+constexpr double kPeakTolerance = 0.05;
 
 struct SampleTable {
   std::array<double, kSamples> c, s;
@@ -25,12 +28,12 @@ struct SampleTable {
 };
 const SampleTable kTable;
 
+using Samples = std::array<double, kSamples + 2>;  // [i + 1] is sample i; the ends wrap round
+
 /// Root of f between its maximum and a point where f <= 0: Newton, held inside the bracket by bisection.
-/// Newton doubles the digits: after a step of a ten thousandth the end is right to rounding,
-/// and d^8 vanishes there anyway.
-double root_between(const TrigQuadratic& f, double top, double outside, double guess) {
+double root_between(const TrigQuadratic& f, double top, double outside, double guess, double tolerance) {
   double x = guess, inside = top;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 30; ++i) {
     double s, c;
     sincos_poly(x, s, c);
     const double value = f.at(c, s);
@@ -38,7 +41,7 @@ double root_between(const TrigQuadratic& f, double top, double outside, double g
     double next = x - value / f.slope(c, s);
     const double low = std::min(inside, outside), high = std::max(inside, outside);
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (std::abs(next - x) <= 1e-4 * std::abs(x - top)) return next;
+    if (std::abs(next - x) <= tolerance * std::abs(x - top)) return next;
     x = next;
   }
   return x;
@@ -54,7 +57,7 @@ void climb(const TrigQuadratic& f, Peak& peak, double step, double low, double h
     if (!(peak.curvature < 0)) break;
     const double rise = f.slope(peak.cosine, peak.sine);
     step = -rise / peak.curvature;
-    if (std::abs(step) < 1e-3) {  // close enough for the Taylor series: the maximum to some 1e-14
+    if (std::abs(step) < kPeakTolerance) {  // the rest by the Taylor series
       peak.third = f.third(peak.cosine, peak.sine);
       step -= peak.third * step * step / (2.0 * peak.curvature);
       peak.phi += step;
@@ -95,12 +98,96 @@ PACKBED_WIDE void sample(const TrigQuadratic& f, double* value) {
   }
 }
 
-bool inside(const PeakList& peaks, double x) {
-  for (int i = 0; i < peaks.size; ++i) {
-    const Peak& p = peaks.peak[static_cast<std::size_t>(i)];
-    if ((x > p.low && x < p.high) || (x - 2.0 * kPi > p.low && x - 2.0 * kPi < p.high)) return true;
+/// Sets the bracket of a peak that has no other above zero beside it.
+void set_feet(const TrigQuadratic& f, Peak& peak) {
+  peak.low = foot(f, peak, -1.0);
+  peak.high = foot(f, peak, 1.0);
+  peak.full = peak.low == peak.phi || peak.high == peak.phi;  // or all round but for a few degrees
+}
+
+PeakList single_peak(const TrigQuadratic& f) {
+  PeakList peaks;
+  Peak& peak = peaks.peak[0];
+  peak.phi = std::atan2(f.k2, f.k1);
+  climb(f, peak, 0.0, peak.phi - 1.0, peak.phi + 1.0);
+  if (peak.value > 0) {
+    peaks.size = 1;
+    set_feet(f, peak);
+  } else {
+    peaks.below = peak.value;
   }
-  return false;
+  return peaks;
+}
+
+/// A place between two maxima where f is not above zero, or else its lowest place; and whether it is above.
+std::pair<double, bool> valley(const TrigQuadratic& f, const Samples& value, double from, double to) {
+  for (double i = std::ceil(from / kStep); i * kStep < to; ++i)
+    if (!(value[static_cast<std::size_t>(static_cast<int>(i) + 2 * kSamples) % kSamples + 1] > 0))
+      return {i * kStep, false};
+  double s = 0, c = 1;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = 0.5 * (from + to);
+    sincos_poly(middle, s, c);
+    (f.slope(c, s) < 0 ? from : to) = middle;
+  }
+  return {0.5 * (from + to), f.at(c, s) > 0};
+}
+
+/// Two maxima above zero: two arcs, one that holds both, or a full turn.
+void part_or_join(const TrigQuadratic& f, const Samples& value, PeakList& peaks) {
+  Peak &p = peaks.peak[0], &q = peaks.peak[1];  // p.phi < q.phi
+  const auto [inner, above_inner] = valley(f, value, p.phi, q.phi);
+  const auto [outer, above_outer] = valley(f, value, q.phi, p.phi + 2.0 * kPi);
+  p.low = outer - 2.0 * kPi;
+  p.high = q.low = inner;
+  q.high = outer;
+  if (!above_inner && !above_outer) return;
+  peaks.size = 1;
+  p.full = above_inner && above_outer;
+  if (above_outer) {  // joined over the turn of the angle
+    p.low = inner - 2.0 * kPi;
+    p.high = inner;
+  } else {
+    p.high = outer;
+  }
+}
+
+PeakList sampled_peaks(const TrigQuadratic& f) {
+  PeakList peaks;
+  Samples value;
+  sample(f, value.data() + 1);
+  value[0] = value[kSamples];
+  value[kSamples + 1] = value[1];
+  // how far f may lie above the parabola through three samples: 2 / (3 sqrt 3) h^3 / 6 times its third
+  // derivative
+  const double bow = 0.0642 * kStep * kStep * kStep * (std::hypot(f.k1, f.k2) + 4.0 * std::hypot(f.k3, f.k4));
+  for (int i = 0; i < kSamples && peaks.size < 2; ++i) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    const double before = value[k], here = value[k + 1], after = value[k + 2];
+    if (here < before || here <= after) continue;  // only at a maximum of the samples
+    const double bend = before - 2.0 * here + after, lean = before - after;
+    const double top = here - 0.125 * lean * lean / bend + bow;  // above the true maximum
+    if (bend < 0 && top <= 0) {
+      peaks.below = std::max(peaks.below, top);
+      continue;
+    }
+    Peak peak;
+    peak.phi = i * kStep;
+    climb(f, peak, first_step(f, kTable.c[k], kTable.s[k]), peak.phi - kStep, peak.phi + kStep);
+    if (peak.value > 0)
+      peaks.peak[static_cast<std::size_t>(peaks.size++)] = peak;
+    else
+      peaks.below = std::max(peaks.below, peak.value);
+  }
+  if (peaks.size == 0 && value[1] > 0) {  // the same all round
+    peaks.size = 1;
+    peaks.peak[0].value = value[1];
+    peaks.peak[0].full = true;
+    return peaks;
+  }
+  if (peaks.size == 1) set_feet(f, peaks.peak[0]);
+  if (peaks.size == 2) part_or_join(f, value, peaks);
+  return peaks;
 }
 
 }  // namespace
@@ -118,82 +205,22 @@ void span_plane(const Vec3& axis, const Vec3& wish, Vec3& e1, Vec3& e2) {
 }
 
 PeakList positive_peaks(const TrigQuadratic& f) {
-  PeakList peaks;
-  std::array<double, kSamples + 2> value;  // [i + 1] is sample i; the ends wrap round
-  sample(f, value.data() + 1);
-  value[0] = value[kSamples];
-  value[kSamples + 1] = value[1];
-  double lowest = value[1];
-  for (double v : value) lowest = std::min(lowest, v);
-  if (lowest > 0) {
-    const std::size_t i =
-        static_cast<std::size_t>(std::max_element(value.begin() + 1, value.end() - 1) - value.begin()) - 1;
-    Peak& peak = peaks.peak[0];
-    peak.phi = kStep * static_cast<double>(i);
-    peak.cosine = kTable.c[i];
-    peak.sine = kTable.s[i];
-    peak.value = value[i + 1];
-    peak.full = true;
-    peaks.size = 1;
-    return peaks;
-  }
-  const auto at = [&](int i) { return value[static_cast<std::size_t>(i + kSamples) % kSamples + 1]; };
-  for (int i = 0; i < kSamples && peaks.size < 4; ++i) {
-    const std::size_t k = static_cast<std::size_t>(i);
-    const double before = value[k], here = value[k + 1], after = value[k + 2];
-    if (here < before || here <= after) continue;  // only at a maximum of the samples
-    const double bend = before - 2.0 * here + after, lean = before - after;
-    const double top = here - 0.125 * lean * lean / bend - 0.1 * bend;  // above the true maximum
-    if (bend < 0 && top <= 0) {
-      peaks.below = std::max(peaks.below, top);
-      continue;
-    }
-    Peak peak;
-    peak.phi = i * kStep;
-    climb(f, peak, first_step(f, kTable.c[k], kTable.s[k]), peak.phi - kStep, peak.phi + kStep);
-    if (!(peak.value > 0)) {
-      peaks.below = std::max(peaks.below, peak.value);
-      continue;
-    }
-    int left = i, right = i;  // walk out to the first sample below zero on either side
-    while (at(left) > 0) --left;
-    while (at(right) > 0) ++right;
-    if (left == i) left = peak.phi > i * kStep ? i : i - 1;
-    if (right == i) right = peak.phi < i * kStep ? i : i + 1;
-    peak.low = left * kStep;
-    peak.high = right * kStep;
-    if (!inside(peaks, peak.phi)) peaks.peak[static_cast<std::size_t>(peaks.size++)] = peak;
-  }
-  return peaks;
+  // with little of the second harmonic there is one maximum, near that of the first
+  const double first2 = f.k1 * f.k1 + f.k2 * f.k2, second2 = 0.25 * (f.k3 * f.k3 + f.k4 * f.k4);
+  return first2 > 16.0 * second2 ? single_peak(f) : sampled_peaks(f);
 }
 
-bool follow_peak(const TrigQuadratic& f, double phi, Peak& peak) {
-  peak.phi = phi;
-  peak.full = false;
-  climb(f, peak, 0.0, phi - 0.2, phi + 0.2);
-  if (!(peak.value > 0 && peak.curvature < 0) || std::abs(peak.phi - phi) > 0.15) return false;
-  peak.low = foot(f, peak, -1.0);
-  peak.high = foot(f, peak, 1.0);
-  return peak.low < peak.high;
-}
-
-Arc arc_round(const TrigQuadratic& f, const Peak& peak, int name) {
-  if (peak.full) return {0, 2.0 * kPi, -1, -1};
+Arc arc_round(const TrigQuadratic& f, const Peak& peak, double tolerance) {
+  if (peak.full) return {0, 2.0 * kPi, true};
   const double top = peak.phi, reach = std::sqrt(2.0 * peak.value / std::max(1e-300, -peak.curvature));
-  if (reach < kNarrow) {  // the cubic there shifts both ends of the parabola by the same way
+  if (reach < kNarrow &&
+      tolerance >= kWholeArc) {  // the cubic there shifts both ends of the parabola by the same way
     const double shift = -peak.third * reach * reach / (6.0 * peak.curvature);
-    return {top - reach + shift, top + reach + shift, name, name};
+    return {top - reach + shift, top + reach + shift};
   }
   const double from = top - reach > peak.low ? top - reach : 0.5 * (peak.low + top);
   const double to = top + reach < peak.high ? top + reach : 0.5 * (peak.high + top);
-  return {root_between(f, top, peak.low, from), root_between(f, top, peak.high, to), name, name};
-}
-
-ArcList positive_arcs(const TrigQuadratic& f, int name) {
-  const PeakList peaks = positive_peaks(f);
-  ArcList arcs;
-  for (int i = 0; i < peaks.size; ++i) arcs.add(arc_round(f, peaks.peak[static_cast<std::size_t>(i)], name));
-  return arcs;
+  return {root_between(f, top, peak.low, from, tolerance), root_between(f, top, peak.high, to, tolerance)};
 }
 
 ArcList intersection(const ArcList& a, const ArcList& b) {
@@ -201,26 +228,48 @@ ArcList intersection(const ArcList& a, const ArcList& b) {
   for (int i = 0; i < a.size; ++i)
     for (int j = 0; j < b.size; ++j) {
       const Arc &p = a.arc[static_cast<std::size_t>(i)], &q = b.arc[static_cast<std::size_t>(j)];
-      if (p.from_root < 0) {
-        both.add(q);
-        continue;
-      }
-      if (q.from_root < 0) {
-        both.add(p);
+      if (p.full || q.full) {
+        both.add(p.full ? q : p);
         continue;
       }
       for (int turn = -2; turn <= 2; ++turn) {
         const double from = q.from + 2.0 * kPi * turn, to = q.to + 2.0 * kPi * turn;
-        Arc arc;
-        arc.from = std::max(p.from, from);
-        arc.to = std::min(p.to, to);
-        if (!(arc.from < arc.to)) continue;
-        arc.from_root = p.from > from ? p.from_root : q.from_root;
-        arc.to_root = p.to < to ? p.to_root : q.to_root;
-        both.add(arc);
+        const Arc arc{std::max(p.from, from), std::min(p.to, to), false,
+                      p.from > from ? p.from_name : q.from_name, p.to < to ? p.to_name : q.to_name};
+        if (arc.from < arc.to) both.add(arc);
       }
     }
   return both;
+}
+
+PACKBED_WIDE void sum_arc(const TrigQuadratic& f, const Arc& arc, ArcSums& out) {
+  ArcTerms<7> t;
+  const double middle = 0.5 * (arc.from + arc.to), half = 0.5 * (arc.to - arc.from);
+#pragma GCC unroll 1  // unrolled, the loop would not be vectorised
+  for (std::size_t i = 0; i < kArcNodes; ++i) {
+    double s, c;
+    sincos_poly(middle + half * kArcNode[i], s, c);
+    const double d = std::max(0.0, f.k0 + c * (f.k1 + f.k3 * c + f.k4 * s) + f.k2 * s);
+    const double d2 = d * d, d4 = d2 * d2, r = 8.0 * d4 * d2 * d;
+    t.term[0][i] = d4 * d4;
+    t.term[1][i] = r;
+    t.term[2][i] = r * c;
+    t.term[3][i] = r * s;
+    t.term[4][i] = r * c * c;
+    t.term[5][i] = r * c * s;
+    t.term[6][i] = d;
+  }
+  const double w = 2.0 * half / kArcNodes;
+  out = {w * t.sum(0), w * t.sum(1), w * t.sum(2), w * t.sum(3), w * t.sum(4), w * t.sum(5), t.largest(6)};
+}
+
+Pressure pressure_of(const Circle& circle, const ArcSums& t) {
+  const Vec3 &e1 = circle.e1, &e2 = circle.e2, &c = circle.centre;
+  const double r = circle.radius;
+  const Vec3 swing = r * (t.rate_c * e1 + t.rate_s * e2), along = r * r * (t.rate_cc * e1 + t.rate_cs * e2),
+             across = r * r * (t.rate_cs * e1 + (t.rate - t.rate_cc) * e2), x = t.rate * c + swing;
+  return {r * t.rate, r * x,
+          r * (c * x.transpose() + swing * c.transpose() + e1 * along.transpose() + e2 * across.transpose())};
 }
 
 }  // namespace packbed

@@ -2,9 +2,8 @@
 // A circle in space and the arcs of it on which a quadratic of the position is positive: the rims of a
 // cylinder dipping into another cylinder, through a floor or into the wall of a tube.
 #include <array>
-#include <utility>
 
-#include "math/types.hpp"
+#include "contact/touch.hpp"
 
 namespace packbed {
 
@@ -36,9 +35,11 @@ struct TrigQuadratic {
   }
 };
 
+/// Angles on which a circle touches; `full`: all round.
 struct Arc {
-  double from = 0, to = 0;           // radians, from < to <= from + 2 pi
-  int from_root = -1, to_root = -1;  // which quadratic vanishes at the end; -1: none (a full turn)
+  double from = 0, to = 2.0 * kPi;  // radians, from < to <= from + 2 pi
+  bool full = false;
+  int from_name = 0, to_name = 0;  // of the list that set the end, for intersections: 0 or 1
 };
 
 struct ArcList {
@@ -58,60 +59,60 @@ struct Peak {
 };
 
 struct PeakList {
-  std::array<Peak, 4> peak;
+  std::array<Peak, 2> peak;
   int size = 0;
   double below = -1e300;  // greatest maximum that stays below zero, if any
 };
 
-/// All peaks above zero. A full turn is one peak, at the largest sample.
+/// All peaks above zero; two that no valley below zero parts are one.
 PeakList positive_peaks(const TrigQuadratic& f);
-/// Follows the peak of an earlier look that was at `phi` then. False when it has gone below zero, or too far
-/// to be sure.
-bool follow_peak(const TrigQuadratic& f, double phi, Peak& peak);
-/// The arc round a peak on which f > 0; `name` is stored as the root of its ends.
-Arc arc_round(const TrigQuadratic& f, const Peak& peak, int name);
-/// Arcs on which f > 0.
-ArcList positive_arcs(const TrigQuadratic& f, int name);
-/// Arcs that belong to both lists.
+/// Step of Newton's method, fraction of the half arc, after which the end of an arc is good enough: for a sum
+/// of d^8 that does not reach 1e-8 of its size in the last twentieth of the arc; for an arc that is to be
+/// cut.
+inline constexpr double kWholeArc = 0.05, kCutArc = 1e-4;
+/// The arc round a peak on which f > 0, its ends to the tolerance.
+Arc arc_round(const TrigQuadratic& f, const Peak& peak, double tolerance);
+/// Arcs that belong to both lists; ends keep the names that they have there.
 ArcList intersection(const ArcList& a, const ArcList& b);
 
-/// Nodes and weights of the Gauss-Legendre rule on [-1, 1] that all arcs use.
-inline constexpr int kArcNodes = 12;
-inline constexpr std::array<double, kArcNodes> kGaussNode = {
-    -0.98156063424671925069, -0.90411725637047485668, -0.76990267419430468704, -0.58731795428661744730,
-    -0.36783149899818019375, -0.12523340851146891547, 0.12523340851146891547,  0.36783149899818019375,
-    0.58731795428661744730,  0.76990267419430468704,  0.90411725637047485668,  0.98156063424671925069};
-inline constexpr std::array<double, kArcNodes> kGaussWeight = {
-    0.04717533638651182719, 0.10693932599531843096, 0.16007832854334622633, 0.20316742672306592174,
-    0.23349253653835480876, 0.24914704581340278500, 0.24914704581340278500, 0.23349253653835480876,
-    0.20316742672306592174, 0.16007832854334622633, 0.10693932599531843096, 0.04717533638651182719};
-
-/// Evenly spaced nodes on [-1, 1] for a full turn.
-inline constexpr std::array<double, kArcNodes> kEvenNode = [] {
+/// Number of evenly spaced nodes on an arc against a wall, where the depth is smooth: d^8 and its first seven
+/// derivatives vanish at both ends, and on a full turn it is periodic: there is no better rule for either, it
+/// does not care where exactly the ends are, and so neither does the gradient.
+inline constexpr int kArcNodes = 16;
+inline constexpr std::array<double, kArcNodes> kArcNode = [] {
   std::array<double, kArcNodes> node{};
   for (int i = 0; i < kArcNodes; ++i) node[static_cast<std::size_t>(i)] = (2.0 * i + 1.0) / kArcNodes - 1.0;
   return node;
 }();
 
-inline constexpr std::array<double, kArcNodes> kEvenWeight = [] {
-  std::array<double, kArcNodes> weight{};
-  for (double& w : weight) w = 2.0 / kArcNodes;
-  return weight;
-}();
+/// Terms of several sums over the nodes of an arc, added up in an order that does not depend on how wide the
+/// machine's vectors are.
+template <std::size_t kSums>
+struct ArcTerms {
+  static_assert(kArcNodes == 16);
+  std::array<std::array<double, kArcNodes>, kSums> term;
 
-/// Half width [rad] from which an arc is integrated in two halves: one rule alone would be off by up to 1e-3
-/// on a whole turn.
-inline constexpr double kWideArc = 1.0;
+  double sum(std::size_t k) const {
+    const std::array<double, kArcNodes>& v = term[k];
+    const double a = (v[0] + v[8]) + (v[4] + v[12]), b = (v[1] + v[9]) + (v[5] + v[13]);
+    const double c = (v[2] + v[10]) + (v[6] + v[14]), d = (v[3] + v[11]) + (v[7] + v[15]);
+    return (a + b) + (c + d);
+  }
+  double largest(std::size_t k) const {
+    double most = 0;
+    for (double v : term[k]) most = v > most ? v : most;
+    return most;
+  }
+};
 
-/// panel(from, to) over an arc, or over its two halves when it is wide; gives what moving the ends of the arc
-/// changes in the sum, the middle going along.
-template <class Panel>
-std::pair<double, double> over_panels(const Arc& arc, const Panel& panel) {
-  if (arc.to - arc.from <= 2.0 * kWideArc) return panel(arc.from, arc.to);
-  const double middle = 0.5 * (arc.from + arc.to);
-  const auto first = panel(arc.from, middle), second = panel(middle, arc.to);
-  const double shared = 0.5 * (first.second + second.first);
-  return {first.first + shared, second.second + shared};
-}
+/// Sums of d^8 and of its slope 8 d^7 with the cosine and sine of the angle, times the angle between nodes.
+struct ArcSums {
+  double power = 0, rate = 0, rate_c = 0, rate_s = 0, rate_cc = 0, rate_cs = 0;
+  double deepest = 0;
+};
+/// Over one arc, of the depth f.
+void sum_arc(const TrigQuadratic& f, const Arc& arc, ArcSums& out);
+/// Of the points of a circle.
+Pressure pressure_of(const Circle& circle, const ArcSums& sums);
 
 }  // namespace packbed

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstdint>
 
+#include "contact/rod_arcs.hpp"
 #include "contact/touch.hpp"
 
 namespace packbed {
@@ -31,23 +32,60 @@ struct Rod {
 /// [m].
 double separation(const Rod& a, const Rod& b);
 
-/// Which features of a pair are worth a look. A pair that stays where it is needs only those that touch.
+/// What the last look at a touching pair has found: all that the next one needs while the bodies stay about
+/// where they are.
 struct RodFeatures {
-  std::uint16_t mask = 0x1fff;  // in: features to look at; out: those that touch
-  // in and out: circles that touch at one place each, and the angle of that place; none: look afresh
-  std::uint8_t tracked = 0;
-  std::array<std::uint8_t, 4> circle{};
-  std::array<double, 4> phi{};
-  double gap = 0;  // out: way that the surfaces may go before another of those looked at can touch [m]
+  static constexpr std::size_t kMostArcs = 12;
+  std::uint8_t arcs = 0;    // that touch, whole; 0 with `followable`: none but the crossing
+  bool followable = false;  // the arcs are all there is, and can be followed
+  bool crossing = false;    // of the sides touches
+  std::array<RodArc, kMostArcs> arc;
+  Vec3 wish_a = Vec3::Zero(), wish_b = Vec3::Zero();  // first vectors of the planes of the circles of a, of b
+  double gap = 0;  // way that the surfaces may go before anything else can touch [m]
 };
 
-Touch touch_cylinders(const Rod& a, const Rod& b);
-/// Looks only at the features of the mask.
+/// Looks at everything, and tells what it has found.
 Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features);
-/// With the half space z < 0.
-Touch touch_floor(const Rod& rod);
+Touch touch_cylinders(const Rod& a, const Rod& b);
+
+/// Pairs that touched at the last look, followed many at a time.
+class RodLooks {
+ public:
+  bool full() const {
+    return lanes_ + static_cast<int>(RodFeatures::kMostArcs) > kCapacity || pairs_ == kPairs;
+  }
+  bool empty() const { return pairs_ == 0; }
+  /// features: followable; its arcs are brought up to date by finish().
+  void add(std::uint32_t tag, const Rod& a, const Rod& b, RodFeatures& features);
+  /// Calls done(tag, touch) for each in the order of adding; a touch without delta: look at that one afresh.
+  template <class Done>
+  void finish(const Done& done) {
+    evaluate();
+    for (int i = 0; i < pairs_; ++i) done(pair_[static_cast<std::size_t>(i)].tag, result(i));
+    pairs_ = lanes_ = 0;
+  }
+
+ private:
+  static constexpr int kCapacity = 64, kPairs = 64;
+  struct Entry {
+    std::uint32_t tag = 0;
+    int lane = 0;
+    Vec3 origin;
+    Rod a, b;  // seen from there
+    RodFeatures* features = nullptr;
+  };
+  void evaluate();
+  Touch result(int i) const;
+
+  std::array<RodArcBatch, kCapacity / kLanes> batch_;
+  std::array<Entry, kPairs> pair_;
+  int lanes_ = 0, pairs_ = 0;
+};
+
+/// With the half space z < 0. gap: way to go before it can touch, when it does not.
+Touch touch_floor(const Rod& rod, double& gap);
 /// With the outside of an upright tube of inner radius `tube` round the z axis, without end up and down.
-Touch touch_tube(const Rod& rod, double tube);
+Touch touch_tube(const Rod& rod, double tube, double& gap);
 
 /// Depth and its slope at x, relative to the centre of the cylinder; 0 outside.
 double depth_in_cylinder(const Vec3& x, const Vec3& axis, double radius, double half_height, Vec3& slope);

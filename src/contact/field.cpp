@@ -189,7 +189,7 @@ void add_to(TouchSum& out, const Sums& s, const Quat& rotation, const Vec3& cent
   const Mat3 second = point_scale * s7 * s2 * (turn * own * turn.transpose()) + shifted +
                       shifted.transpose() + rate * centre * centre.transpose();
   out.add_sums(point_scale * s4 * s4 * total(s.power), sign * force, sign * (turning + centre.cross(force)),
-               rate, place + rate * centre, second, field_scale * s.deepest);
+               {rate, place + rate * centre, second}, field_scale * s.deepest);
 }
 
 }  // namespace

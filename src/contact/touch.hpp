@@ -45,6 +45,13 @@ struct Touch {
   double depth = 0;  // greatest distance of any feature point from the surface that it dips through [m]
 };
 
+/// Sum of the rates w 8 d^7 of points x, of rate x, and of rate x x^T.
+struct Pressure {
+  double total = 0;
+  Vec3 x = Vec3::Zero();
+  Mat3 xx = Mat3::Zero();
+};
+
 /// Gathers weighted depths into a Touch. Works about an origin near both bodies so that torques lose no
 /// digits.
 class TouchSum {
@@ -63,21 +70,15 @@ class TouchSum {
     pressure_ += rate;
     if (d > depth_) depth_ = d;
   }
-  /// Moving a by dx changes the sum by rate * slope . dx, without any pressure at x (end points of arcs).
-  void add_end(const Vec3& x, double rate, const Vec3& slope) {
-    force_ -= rate * slope;
-    torque_ -= rate * x.cross(slope);
-  }
-  /// Sums that a kernel has made itself: of w d^8, of rate * slope and its torque, of the pressure and its
-  /// moments.
-  void add_sums(double power, const Vec3& rate_slope, const Vec3& torque, double pressure,
-                const Vec3& pressure_x, const Mat3& pressure_xx, double deepest) {
+  /// Sums that a kernel has made itself: of w d^8, of rate * slope and its torque, of the pressure.
+  void add_sums(double power, const Vec3& rate_slope, const Vec3& torque, const Pressure& pressure,
+                double deepest) {
     sum_ += power;
     force_ -= rate_slope;
     torque_ -= torque;
-    pressure_ += pressure;
-    centre_ += pressure_x;
-    second_ += pressure_xx;
+    pressure_ += pressure.total;
+    centre_ += pressure.x;
+    second_ += pressure.xx;
     depth_ = std::max(depth_, deepest);
   }
   bool empty() const { return !(sum_ > 0); }

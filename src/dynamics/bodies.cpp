@@ -64,6 +64,8 @@ void add_body(Bodies& b, const NewBody& n) {
   const Quat& q = b.rotation.back();
   b.angular_momentum.push_back(q * Vec3(n.inertia.cwiseProduct(q.conjugate() * n.spin)));
   b.spin.push_back(n.spin);
+  b.velocity_ahead.push_back(Vec3::Zero());
+  b.spin_ahead.push_back(Vec3::Zero());
   b.travel.push_back(0);
   b.force.push_back(Vec3::Zero());
   b.torque.push_back(Vec3::Zero());
@@ -85,6 +87,19 @@ Vec3 spin_of(const Bodies& b, std::size_t i) {
 void kick(Bodies& b, std::size_t i, const Vec3& gravity, double half_step) {
   b.velocity[i] += half_step * (b.inverse_mass[i] * b.force[i] + gravity);
   b.angular_momentum[i] += half_step * b.torque[i];
+}
+
+void look_ahead(Bodies& b, std::size_t i, const Vec3& gravity, double half_step) {
+  b.velocity_ahead[i] = b.velocity[i] + half_step * (b.inverse_mass[i] * b.force[i] + gravity);
+  b.spin_ahead[i] = b.spin[i] + half_step * inverse_inertia_times(b, i, b.torque[i]);
+}
+
+void halt(Bodies& b, std::size_t i) {
+  b.velocity[i].setZero();
+  b.angular_momentum[i].setZero();
+  b.spin[i].setZero();
+  b.velocity_ahead[i].setZero();
+  b.spin_ahead[i].setZero();
 }
 
 void drift(Bodies& b, std::size_t i, double step) {

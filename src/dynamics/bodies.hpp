@@ -24,13 +24,14 @@ struct Bodies {
   std::vector<Vec3> inverse_inertia;    // 0 for fixed
   std::vector<double> bounding_radius;  // [m]
   // written by kick and drift
-  std::vector<Vec3> position;          // centre of mass [m]
-  std::vector<Quat> rotation;          // own frame to world
-  std::vector<Vec3> axis;              // own z in the world
-  std::vector<Vec3> velocity;          // [m/s]
-  std::vector<Vec3> angular_momentum;  // about the centre, world axes [kg m2/s]
-  std::vector<Vec3> spin;              // angular velocity, world axes [rad/s]
-  std::vector<double> travel;          // bound of the path of any surface point since the start [m]
+  std::vector<Vec3> position;                    // centre of mass [m]
+  std::vector<Quat> rotation;                    // own frame to world
+  std::vector<Vec3> axis;                        // own z in the world
+  std::vector<Vec3> velocity;                    // [m/s]
+  std::vector<Vec3> angular_momentum;            // about the centre, world axes [kg m2/s]
+  std::vector<Vec3> spin;                        // angular velocity, world axes [rad/s]
+  std::vector<Vec3> velocity_ahead, spin_ahead;  // at the end of the step, by the last known accelerations
+  std::vector<double> travel;                    // bound of the path of any surface point since the start [m]
   // written by gather
   std::vector<Vec3> force, torque;  // [N], [N m], without gravity
   // written by find_pairs, leap and sleep
@@ -58,6 +59,10 @@ Vec3 inverse_inertia_times(const Bodies& bodies, std::size_t i, const Vec3& v);
 
 /// Half a step of velocity and angular momentum under force, torque and gravity.
 void kick(Bodies& bodies, std::size_t i, const Vec3& gravity, double half_step);
+/// Velocity and spin half a step ahead, for dashpots; zero for what does not move.
+void look_ahead(Bodies& bodies, std::size_t i, const Vec3& gravity, double half_step);
+/// Stops a body where it is.
+void halt(Bodies& bodies, std::size_t i);
 /// A step of position and rotation at constant momenta. Rotation: closed form for symmetric tops; else the
 /// symmetric splitting of Dullweber, Leimkuhler & McLachlan (J. Chem. Phys. 107, 1997) into turns about the
 /// principal axes.

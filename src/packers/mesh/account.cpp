@@ -62,10 +62,10 @@ void audit_rest(RunRecord& record, const Model& model, const State& state) {
 
 void audit_impacts(RunRecord& record, const State& state) {
   const Ledger& l = state.ledger;
-  const double share = l.looks > 0 ? l.deep_looks / l.looks : 0;
+  const double share = l.touches > 0 ? l.deep_touches / l.touches : 0;
   record.overlap.peak = l.peak;
   record.overlap.share_above_5_percent = share;
-  add_line(record, "impacts", share <= kDeepShare && l.very_deep_looks <= 0,
+  add_line(record, "impacts", share <= kDeepShare && l.very_deep_touches <= 0,
            fmt::format("deepest overlap during the run {:.2f} % (limit 10 %), {:.4f} % of touches over 5 % "
                        "(limit {:.1f} %)",
                        100 * l.peak, 100 * share, 100 * kDeepShare));
@@ -174,7 +174,10 @@ void fill_record(RunRecord& record, const Scene& scene, const Model& model, cons
   audit_energy(record, model, state);
   audit_wall_forces(record, model, state);
   const Ledger& l = state.ledger;
-  record.counters = {{"touches_evaluated", l.looks},
+  const double steps = std::max(1.0, static_cast<double>(state.steps));
+  record.counters = {{"touches", l.touches},
+                     {"mean_awake", l.awake / steps},
+                     {"mean_active_pairs", l.active / steps},
                      {"searches", l.searches},
                      {"wakes", l.wakes},
                      {"sleeps", l.sleeps},

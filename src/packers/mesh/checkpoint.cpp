@@ -8,7 +8,7 @@
 namespace packbed::mesh {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'00000001;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'00000002;  // changes with any change of State
 
 class Writer {
  public:
@@ -68,7 +68,7 @@ void visit(Archive& io, S& s) {
   auto& b = s.bodies;
   io(b.kind), io(b.inverse_mass), io(b.mass), io(b.inertia), io(b.inverse_inertia), io(b.bounding_radius);
   io(b.position), io(b.rotation), io(b.axis), io(b.velocity), io(b.angular_momentum), io(b.spin),
-      io(b.travel);
+      io(b.velocity_ahead), io(b.spin_ahead), io(b.travel);
   io(b.force), io(b.torque), io(b.motion);
   io(s.flight_end), io(s.flight_from), io(s.listed_at), io(s.margin), io(s.doze);
   auto& p = s.pairs;

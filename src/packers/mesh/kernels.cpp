@@ -9,11 +9,6 @@
 namespace packbed::mesh {
 namespace {
 
-Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
-  const Shape& shape = *model.kinds[bodies.kind[i]].shape;
-  return {bodies.position[i], bodies.axis[i], shape.radius, shape.half_height};
-}
-
 FieldPellet field_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
   return {model.kinds[bodies.kind[i]].field.get(), {bodies.position[i], bodies.rotation[i]}, 1.0};
 }
@@ -31,34 +26,31 @@ Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std:
     case Kernel::sphere:
       return floor ? touch_floor(x, kind.shape->radius) : touch_tube(x, kind.shape->radius, tube);
     case Kernel::cylinder:
-      return floor ? touch_floor(rod_of(model, bodies, a)) : touch_tube(rod_of(model, bodies, a), tube);
+      return floor ? touch_floor(rod_of(model, bodies, a), gap)
+                   : touch_tube(rod_of(model, bodies, a), tube, gap);
     case Kernel::field:
       return floor ? touch_floor(field_of(model, bodies, a)) : touch_tube(field_of(model, bodies, a), tube);
   }
   return {};
 }
 
-/// Looks at the features that touched last time; at all of them once the bodies may have come into reach of
-/// others.
+/// Looks at everything that may touch, and notes for how long that will be all.
 Touch touch_rods(const Rod& a, const Rod& b, double travelled, PairRecord& record, double& gap) {
-  if (record.features.mask != 0 && travelled < record.features_until) {
-    const Touch touch = touch_cylinders(a, b, record.features);
-    if (touch.delta > 0) return touch;
-  }
-  record.features.mask = 0;
+  record.features.followable = false;
   gap = separation(a, b);
   if (gap > 0) return {};
-  RodFeatures features;
-  const Touch touch = touch_cylinders(a, b, features);
-  gap = features.gap;
-  if (touch.delta > 0) {
-    record.features = features;
-    record.features_until = travelled + features.gap;
-  }
+  const Touch touch = touch_cylinders(a, b, record.features);
+  gap = record.features.gap;
+  record.features_until = travelled + gap;
   return touch;
 }
 
 }  // namespace
+
+Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
+  const Shape& shape = *model.kinds[bodies.kind[i]].shape;
+  return {bodies.position[i], bodies.axis[i], shape.radius, shape.half_height};
+}
 
 Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, double travelled,
                  PairRecord& record, double& gap) {

@@ -62,11 +62,11 @@ struct PairRecord {
   double damped = 0, rubbed = 0;                          // lost since the last search [J]
   double delta = 0;                                       // solver's overlap now [m]
   double features_until = 0;  // travel of both bodies up to which `features` is all that can touch [m]
-  RodFeatures features{0, 0, {}, {}, 0};  // of the cylinder kernel: those that touched last time
-  double held = 0;                        // size of the force when one of the two fell asleep [N]
-  double peak = 0;                        // greatest depth since the last search, fraction of the thickness
-  // touching evaluations since the last search, and those deeper than 5 % and 10 % of the thickness
-  std::uint32_t looks = 0, deep_looks = 0, very_deep_looks = 0;
+  RodFeatures features;       // of the cylinder kernel: what touched at the last fresh look
+  double held = 0;            // size of the force when one of the two fell asleep [N]
+  double peak = 0;            // greatest depth since the last search, fraction of the thickness
+  // touching steps since the last search, and those deeper than 5 % and 10 % of the thickness
+  std::uint32_t touches = 0, deep_touches = 0, very_deep_touches = 0;
 };
 
 struct Pairs {
@@ -91,10 +91,11 @@ struct Doze {
 
 /// Totals since the start, each added in fixed order.
 struct Ledger {
-  double input = 0, damped = 0, rubbed = 0, removed = 0;  // [J]
-  double peak = 0;                                        // greatest depth, fraction of the thickness
-  double looks = 0, deep_looks = 0, very_deep_looks = 0;  // touching evaluations; deeper than 5 %, 10 %
+  double input = 0, damped = 0, rubbed = 0, removed = 0;        // [J]
+  double peak = 0;                                              // greatest depth, fraction of the thickness
+  double touches = 0, deep_touches = 0, very_deep_touches = 0;  // see PairRecord
   double searches = 0, wakes = 0, sleeps = 0;
+  double awake = 0, active = 0;  // bodies stepped and pairs walked over, added up over all steps
 };
 
 struct State {

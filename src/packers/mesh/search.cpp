@@ -106,11 +106,11 @@ void settle_accounts(State& state) {
     state.ledger.damped += r.damped;
     state.ledger.rubbed += r.rubbed;
     state.ledger.peak = std::max(state.ledger.peak, r.peak);
-    state.ledger.looks += r.looks;
-    state.ledger.deep_looks += r.deep_looks;
-    state.ledger.very_deep_looks += r.very_deep_looks;
+    state.ledger.touches += r.touches;
+    state.ledger.deep_touches += r.deep_touches;
+    state.ledger.very_deep_touches += r.very_deep_touches;
     r.damped = r.rubbed = r.peak = 0;
-    r.looks = r.deep_looks = r.very_deep_looks = 0;
+    r.touches = r.deep_touches = r.very_deep_touches = 0;
   }
 }
 

@@ -56,9 +56,7 @@ void fall_asleep(State& state, std::size_t i) {
   state.ledger.removed += kinetic_translation(b, i) + kinetic_rotation(b, i);
   ++state.ledger.sleeps;
   b.motion[i] = Motion::asleep;
-  b.velocity[i].setZero();
-  b.angular_momentum[i].setZero();
-  b.spin[i].setZero();
+  halt(b, i);
   Doze& d = state.doze[i];
   d.force = b.force[i];
   d.torque = b.torque[i];

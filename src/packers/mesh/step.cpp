@@ -31,12 +31,14 @@ void kick_drift(const Model& model, State& state) {
       const std::size_t i = state.awake[k];
       kick(bodies, i, model.gravity, 0.5 * model.step);
       drift(bodies, i, model.step);
+      look_ahead(bodies, i, model.gravity, 0.5 * model.step);
       const double margin = state.margin[i];
       if ((bodies.position[i] - state.listed_at[i]).squaredNorm() > margin * margin)
         left_margin.store(true, std::memory_order_relaxed);
     }
   });
   ++state.steps;
+  state.ledger.awake += static_cast<double>(state.awake.size());
   state.time += model.step;
   if (left_margin) state.search_due = 1;
 }

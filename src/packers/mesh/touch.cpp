@@ -9,19 +9,12 @@ namespace packbed::mesh {
 namespace {
 
 /// Motion of a against b at the touch. What is not awake stands still; b may be the container.
-Approach approach_of(const Model& model, const Bodies& bodies, const Touch& t, std::uint32_t a,
-                     std::uint32_t b) {
+Approach approach_of(const Bodies& bodies, const Touch& t, std::uint32_t a, std::uint32_t b) {
   Approach out;
-  const double half_step = 0.5 * model.step;
   const auto add = [&](std::uint32_t i, double side, const Vec3& torque) {
-    const Vec3 turned = inverse_inertia_times(bodies, i, torque);
-    out.inverse_mass += bodies.inverse_mass[i] * t.gradient.squaredNorm() + torque.dot(turned);
-    if (bodies.motion[i] != Motion::awake) return;
-    // the dashpot acts at the end of the step: velocities there, from the last known accelerations
-    const Vec3 velocity =
-        bodies.velocity[i] + half_step * (bodies.inverse_mass[i] * bodies.force[i] + model.gravity);
-    out.closing -= side * t.gradient.dot(velocity) + torque.dot(bodies.spin[i]) +
-                   half_step * turned.dot(bodies.torque[i]);
+    out.inverse_mass += bodies.inverse_mass[i] * t.gradient.squaredNorm() +
+                        torque.dot(inverse_inertia_times(bodies, i, torque));
+    out.closing -= side * t.gradient.dot(bodies.velocity_ahead[i]) + torque.dot(bodies.spin_ahead[i]);
     out.closing_mid -= side * t.gradient.dot(bodies.velocity[i]) + torque.dot(bodies.spin[i]);
     out.slide += side * (bodies.velocity[i] + bodies.spin[i].cross(t.point - bodies.position[i]));
     out.spin += side * bodies.spin[i];
@@ -49,22 +42,11 @@ double thickness_of(const Model& model, const Bodies& bodies, std::uint32_t a, s
   return is_container(b) ? of_a : std::min(of_a, model.kinds[bodies.kind[b]].thickness);
 }
 
-void look(const Model& model, State& state, std::uint32_t p) {
-  const Bodies& bodies = state.bodies;
-  const auto [a, b] = state.pairs.pair[p];
+void push(const Model& model, const Bodies& bodies, const BodyPair& pair, const Touch& t, PairRecord& r) {
+  const auto [a, b] = pair;
   const bool wall = is_container(b);
-  const double travelled = bodies.travel[a] + (wall ? 0.0 : bodies.travel[b]);
-  if (travelled < state.pairs.look_at[p]) return;
-  PairRecord& r = state.pairs.record[p];
-  double gap = 0;
-  const Touch t = touch_pair(model, bodies, state.pairs.pair[p], travelled, r, gap);
-  if (!(t.delta > 0)) {
-    if (r.delta > 0) part(r);
-    state.pairs.look_at[p] = travelled + std::max(0.0, gap);
-    return;
-  }
   const LawNumbers& law = wall ? model.wall_law : model.pellet_law;
-  const ContactForce f = resolve(t, law, approach_of(model, bodies, t, a, b), model.step, r.spring);
+  const ContactForce f = resolve(t, law, approach_of(bodies, t, a, b), model.step, r.spring);
   r.force = f.push * t.gradient + f.friction;
   r.torque_a = f.push * t.torque_a + (t.point - bodies.position[a]).cross(f.friction) + f.moment;
   if (!wall) r.torque_b = f.push * t.torque_b - (t.point - bodies.position[b]).cross(f.friction) - f.moment;
@@ -75,17 +57,61 @@ void look(const Model& model, State& state, std::uint32_t p) {
   r.delta = t.delta;
   const double depth = t.depth / thickness_of(model, bodies, a, b);
   r.peak = std::max(r.peak, depth);
-  ++r.looks;
-  r.deep_looks += depth > 0.05;
-  r.very_deep_looks += depth > 0.1;
+  ++r.touches;
+  r.deep_touches += depth > 0.05;
+  r.very_deep_touches += depth > 0.1;
+}
+
+double travel_of(const State& state, std::uint32_t p) {
+  const auto [a, b] = state.pairs.pair[p];
+  const std::vector<double>& travel = state.bodies.travel;
+  return travel[a] + (is_container(b) ? 0.0 : travel[b]);
+}
+
+void look_afresh(const Model& model, State& state, std::uint32_t p, double travelled) {
+  PairRecord& r = state.pairs.record[p];
+  double gap = 0;
+  const Touch t = touch_pair(model, state.bodies, state.pairs.pair[p], travelled, r, gap);
+  if (t.delta > 0) {
+    push(model, state.bodies, state.pairs.pair[p], t, r);
+    return;
+  }
+  if (r.delta > 0) part(r);
+  state.pairs.look_at[p] = travelled + std::max(0.0, gap);
+}
+
+/// The pairs that were queued to be followed.
+void follow_all(const Model& model, State& state, RodLooks& looks) {
+  looks.finish([&](std::uint32_t p, const Touch& t) {
+    if (t.delta > 0)
+      push(model, state.bodies, state.pairs.pair[p], t, state.pairs.record[p]);
+    else  // not where it was looked for
+      look_afresh(model, state, p, travel_of(state, p));
+  });
+}
+
+void look(const Model& model, State& state, std::uint32_t p, RodLooks& looks) {
+  const double travelled = travel_of(state, p);
+  if (travelled < state.pairs.look_at[p]) return;
+  PairRecord& r = state.pairs.record[p];
+  if (!r.features.followable || travelled >= r.features_until) {
+    look_afresh(model, state, p, travelled);
+    return;
+  }
+  const auto [a, b] = state.pairs.pair[p];
+  looks.add(p, rod_of(model, state.bodies, a), rod_of(model, state.bodies, b), r.features);
+  if (looks.full()) follow_all(model, state, looks);
 }
 
 }  // namespace
 
 void touch(const Model& model, State& state) {
   const std::vector<std::uint32_t>& active = state.pairs.active;
+  state.ledger.active += static_cast<double>(active.size());
   parallel_for(active.size(), 64, [&](std::size_t from, std::size_t to) {
-    for (std::size_t k = from; k < to; ++k) look(model, state, active[k]);
+    thread_local RodLooks looks;
+    for (std::size_t k = from; k < to; ++k) look(model, state, active[k], looks);
+    follow_all(model, state, looks);
   });
 }
 
