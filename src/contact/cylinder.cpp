@@ -25,6 +25,7 @@ constexpr double kSideLength = 0.05;
 constexpr double kParallel = 0.03;
 
 constexpr std::uint8_t kCircles = 12;  // 0 to 5 those of a, 6 to 11 those of b
+constexpr float kFar = 1e30F;          // a way that nothing goes
 enum EndName { kSide = 0, kCap = 1 };
 
 /// A circle in the frame of a cylinder: everything is a trigonometric polynomial of the angle phi.
@@ -62,11 +63,11 @@ Feature circle_of(int feature, const Rod& a, const Rod& b) {
   return {rod.centre + end * height * rod.half_height * rod.axis, radius * rod.radius, &rod, of_a ? &b : &a};
 }
 
-/// What a fresh look finds.
+/// What a look at one circle finds.
 struct Finding {
-  std::array<RodArc, 64> arc;
+  std::array<RodArc, 8> arc;
   std::size_t size = 0;
-  double gap = 1e300;  // way to go before something that does not touch can do so
+  double gap = 1e30;  // way to go before it can touch where it does not
 
   void add(const RodArc& a) {
     if (size < arc.size()) arc[size++] = a;
@@ -264,6 +265,38 @@ void add_lane(TouchSum& sum, const RodArcBatch& batch, int k, const RodArc& arc,
                batch.deepest[k]);
 }
 
+/// `gap` further than `gone`, rounded down.
+float later(float gone, double gap) {
+  return gone + 0.999F * static_cast<float>(std::clamp(gap, 0.0, static_cast<double>(kFar)));
+}
+
+/// Looks at one circle afresh: its arcs take the place of those known.
+void look_again(std::uint8_t circle, const Rod& a, const Rod& b, float gone, RodFeatures& features) {
+  const Feature f = circle_of(circle, a, b);
+  Vec3 e1, e2;
+  span_plane(f.owner->axis, f.other->axis, e1, e2);
+  Finding found;
+  find_arcs(found, circle, f, e1);
+  const auto end = std::remove_if(features.arc.begin(), features.arc.begin() + features.arcs,
+                                  [&](const RodArc& arc) { return arc.circle == circle; });
+  features.arcs = static_cast<std::uint8_t>(end - features.arc.begin());
+  features.until[circle] = later(gone, found.gap);
+  if (found.size == 0) return;
+  // angles are kept from the vector that all looks share, which e1 has turned away from
+  const Vec3& wish = circle < 6 ? features.wish_a : features.wish_b;
+  const double turned = std::atan2(e1.dot(f.owner->axis.cross(wish)), e1.dot(wish));
+  for (std::size_t k = 0; k < found.size; ++k) {
+    if (features.arcs == RodFeatures::kMostArcs) {
+      features.until[circle] = gone;  // no room: look again next time
+      return;
+    }
+    RodArc& arc = features.arc[features.arcs++] = found.arc[k];
+    if (arc.full) continue;
+    arc.from += turned;
+    arc.to += turned;
+  }
+}
+
 Rod seen_from(const Vec3& origin, const Rod& rod) {
   return {rod.centre - origin, rod.axis, rod.radius, rod.half_height};
 }
@@ -310,51 +343,41 @@ double separation(const Rod& a, const Rod& b) {
   return best;
 }
 
-Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features) {
-  const Vec3 origin = 0.5 * (a.centre + b.centre);
-  const Rod near_a = seen_from(origin, a), near_b = seen_from(origin, b);
-  Finding found;
+double RodFeatures::due() const {
+  return base + static_cast<double>(*std::min_element(until.begin(), until.end()));
+}
+
+Touch touch_cylinders(const Rod& a, const Rod& b, double travelled, RodFeatures& features) {
   Vec3 unused;
   span_plane(a.axis, b.axis, features.wish_a, unused);
   span_plane(b.axis, a.axis, features.wish_b, unused);
-  for (std::uint8_t k = 0; k < kCircles; ++k)
-    find_arcs(found, k, circle_of(k, near_a, near_b), k < 6 ? features.wish_a : features.wish_b);
-
-  TouchSum sum(origin);
-  bool holds = true;
-  for (std::size_t first = 0; first < found.size; first += kLanes) {
-    RodArcBatch batch;
-    const std::size_t count = std::min<std::size_t>(kLanes, found.size - first);
-    for (std::size_t k = 0; k < kLanes; ++k)  // idle lanes do the work of the first
-      set_lane(batch, static_cast<int>(k), found.arc[first + (k < count ? k : 0)], near_a, near_b, features);
-    follow(batch);
-    for (std::size_t k = 0; k < count; ++k) {
-      const int lane = static_cast<int>(k);
-      RodArc& arc = found.arc[first + k];
-      add_lane(sum, batch, lane, arc, near_a, near_b);
-      holds = holds && batch.holds[lane] > 0;
-      arc.from = batch.from[lane];
-      arc.to = batch.to[lane];
-    }
-  }
-  const double gap = add_crossing(sum, near_a, near_b, reference_length(a, b));
-  features.crossing = gap < 0;
-  features.gap = features.crossing ? found.gap : std::min(found.gap, gap);
-  features.followable = holds && found.size <= RodFeatures::kMostArcs && !sum.empty();
-  features.arcs = static_cast<std::uint8_t>(std::min(found.size, RodFeatures::kMostArcs));
-  std::copy_n(found.arc.begin(), features.arcs, features.arc.begin());
-  return sum.finish(reference_length(a, b), near_a.centre, near_b.centre);
+  features.base = travelled;
+  features.until.fill(0.0F);
+  features.arcs = 0;
+  features.crossing = false;
+  features.known = true;
+  thread_local RodLooks looks;
+  Touch out;
+  looks.add(0, a, b, travelled, features);
+  looks.finish([&](std::uint32_t, const Touch& touch, bool lost) {
+    out = touch;
+    if (lost) features.known = false;
+  });
+  return out;
 }
 
 Touch touch_cylinders(const Rod& a, const Rod& b) {
   RodFeatures features;
-  return touch_cylinders(a, b, features);
+  return touch_cylinders(a, b, 0.0, features);
 }
 
-void RodLooks::add(std::uint32_t tag, const Rod& a, const Rod& b, RodFeatures& features) {
+void RodLooks::add(std::uint32_t tag, const Rod& a, const Rod& b, double travelled, RodFeatures& features) {
   const Vec3 origin = 0.5 * (a.centre + b.centre);
   Entry& e = pair_[static_cast<std::size_t>(pairs_++)];
-  e = {tag, lanes_, origin, seen_from(origin, a), seen_from(origin, b), &features};
+  e = {tag, lanes_, travelled, origin, seen_from(origin, a), seen_from(origin, b), &features};
+  const auto gone = static_cast<float>(travelled - features.base);
+  for (std::uint8_t k = 0; k < kCircles; ++k)
+    if (gone >= features.until[k]) look_again(k, e.a, e.b, gone, features);
   for (std::size_t k = 0; k < features.arcs; ++k, ++lanes_)
     set_lane(batch_[static_cast<std::size_t>(lanes_ / kLanes)], lanes_ % kLanes, features.arc[k], e.a, e.b,
              features);
@@ -366,20 +389,27 @@ void RodLooks::evaluate() {
     follow(batch_[static_cast<std::size_t>(first / kLanes)]);
 }
 
-Touch RodLooks::result(int i) const {
+Touch RodLooks::result(int i, bool& lost) const {
   const Entry& e = pair_[static_cast<std::size_t>(i)];
+  RodFeatures& features = *e.features;
   TouchSum sum(e.origin);
-  for (std::size_t k = 0; k < e.features->arcs; ++k) {
+  for (std::size_t k = 0; k < features.arcs; ++k) {
     const int lane = e.lane + static_cast<int>(k);
     const RodArcBatch& batch = batch_[static_cast<std::size_t>(lane / kLanes)];
-    RodArc& arc = e.features->arc[k];
+    RodArc& arc = features.arc[k];
     arc.from = batch.from[lane % kLanes];
     arc.to = batch.to[lane % kLanes];
-    if (!(batch.holds[lane % kLanes] > 0)) return {};
+    if (!(batch.holds[lane % kLanes] > 0)) lost = true;
     add_lane(sum, batch, lane % kLanes, arc, e.a, e.b);
   }
   const double reference = reference_length(e.a, e.b);
-  if (e.features->crossing) add_crossing(sum, e.a, e.b, reference);
+  const auto gone = static_cast<float>(e.travelled - features.base);
+  float& until = features.until[RodFeatures::kCrossing];
+  if (features.crossing || gone >= until) {
+    const double gap = add_crossing(sum, e.a, e.b, reference);
+    features.crossing = gap < 0;
+    until = features.crossing ? kFar : later(gone, gap);
+  }
   return sum.finish(reference, e.a.centre, e.b.centre);
 }
 

@@ -32,36 +32,45 @@ struct Rod {
 /// [m].
 double separation(const Rod& a, const Rod& b);
 
-/// What the last look at a touching pair has found: all that the next one needs while the bodies stay about
-/// where they are.
+/// What the looks at a pair have found: all that the next one needs while the bodies stay about where they
+/// are. Each of the thirteen places where a pair can touch (twelve circles, and the crossing of the sides) is
+/// looked at again only when the bodies may have gone far enough to change what is known of it.
 struct RodFeatures {
-  static constexpr std::size_t kMostArcs = 12;
-  std::uint8_t arcs = 0;    // that touch, whole; 0 with `followable`: none but the crossing
-  bool followable = false;  // the arcs are all there is, and can be followed
-  bool crossing = false;    // of the sides touches
+  static constexpr std::size_t kMostArcs = 16, kPlaces = 13, kCrossing = 12;
+  bool known = false;     // all the rest holds
+  bool crossing = false;  // of the sides touches
+  std::uint8_t arcs = 0;  // that touch
   std::array<RodArc, kMostArcs> arc;
   Vec3 wish_a = Vec3::Zero(), wish_b = Vec3::Zero();  // first vectors of the planes of the circles of a, of b
-  double gap = 0;  // way that the surfaces may go before anything else can touch [m]
+  double base = 0;                                    // travel of both bodies from which `until` counts [m]
+  std::array<float, kPlaces> until{};                 // travel at which a place is looked at again [m]
+
+  /// Travel of both bodies at which the first of the places is due.
+  double due() const;
 };
 
-/// Looks at everything, and tells what it has found.
-Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features);
+/// Looks at everything, and tells what it has found. `travelled`: travel of both bodies so far [m].
+Touch touch_cylinders(const Rod& a, const Rod& b, double travelled, RodFeatures& features);
 Touch touch_cylinders(const Rod& a, const Rod& b);
 
-/// Pairs that touched at the last look, followed many at a time.
+/// Pairs of which much is known, looked at many at a time.
 class RodLooks {
  public:
   bool full() const {
     return lanes_ + static_cast<int>(RodFeatures::kMostArcs) > kCapacity || pairs_ == kPairs;
   }
-  bool empty() const { return pairs_ == 0; }
-  /// features: followable; its arcs are brought up to date by finish().
-  void add(std::uint32_t tag, const Rod& a, const Rod& b, RodFeatures& features);
-  /// Calls done(tag, touch) for each in the order of adding; a touch without delta: look at that one afresh.
+  /// features: known; brought up to date.
+  void add(std::uint32_t tag, const Rod& a, const Rod& b, double travelled, RodFeatures& features);
+  /// Calls done(tag, touch, lost) for each in the order of adding. lost: an arc was not where it was looked
+  /// for; that pair needs a look at everything.
   template <class Done>
   void finish(const Done& done) {
     evaluate();
-    for (int i = 0; i < pairs_; ++i) done(pair_[static_cast<std::size_t>(i)].tag, result(i));
+    for (int i = 0; i < pairs_; ++i) {
+      bool lost = false;
+      const Touch touch = result(i, lost);
+      done(pair_[static_cast<std::size_t>(i)].tag, touch, lost);
+    }
     pairs_ = lanes_ = 0;
   }
 
@@ -70,12 +79,13 @@ class RodLooks {
   struct Entry {
     std::uint32_t tag = 0;
     int lane = 0;
+    double travelled = 0;
     Vec3 origin;
     Rod a, b;  // seen from there
     RodFeatures* features = nullptr;
   };
   void evaluate();
-  Touch result(int i) const;
+  Touch result(int i, bool& lost) const;
 
   std::array<RodArcBatch, kCapacity / kLanes> batch_;
   std::array<Entry, kPairs> pair_;

@@ -143,8 +143,8 @@ TEST(Cylinders, FollowedPairsGiveTheSameAsAFreshLook) {
   std::vector<RodFeatures> features;
   const std::vector<RodPair> pairs = random_touches(600);
   RodLooks looks;
-  const auto compare = [&](std::uint32_t k, const Touch& t) {
-    if (!(t.delta > 0)) return;  // lost: the caller looks afresh
+  const auto compare = [&](std::uint32_t k, const Touch& t, bool lost) {
+    if (lost) return;  // the caller looks afresh
     ++followed;
     const Touch fresh = touch_cylinders(moved_a[k], pairs[k].b);
     EXPECT_NEAR(t.delta, fresh.delta, 1e-5 * fresh.delta) << "pair " << k;
@@ -154,10 +154,10 @@ TEST(Cylinders, FollowedPairsGiveTheSameAsAFreshLook) {
   features.resize(pairs.size());
   for (std::uint32_t k = 0; k < pairs.size(); ++k) {
     Random random(6, Stream::test, k + 1);
-    touch_cylinders(pairs[k].a, pairs[k].b, features[k]);
+    touch_cylinders(pairs[k].a, pairs[k].b, 0.0, features[k]);
     moved_a.push_back(moved(pairs[k].a, 1e-6 * random.on_sphere(), 4e-4 * random.on_sphere()));
-    if (!features[k].followable || features[k].gap < 4e-6) continue;
-    looks.add(k, moved_a[k], pairs[k].b, features[k]);
+    if (!features[k].known) continue;
+    looks.add(k, moved_a[k], pairs[k].b, 4e-6, features[k]);
     if (looks.full()) looks.finish(compare);
   }
   looks.finish(compare);

@@ -34,14 +34,12 @@ Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std:
   return {};
 }
 
-/// Looks at everything that may touch, and notes for how long that will be all.
 Touch touch_rods(const Rod& a, const Rod& b, double travelled, PairRecord& record, double& gap) {
-  record.features.followable = false;
+  record.features.known = false;
   gap = separation(a, b);
   if (gap > 0) return {};
-  const Touch touch = touch_cylinders(a, b, record.features);
-  gap = record.features.gap;
-  record.features_until = travelled + gap;
+  const Touch touch = touch_cylinders(a, b, travelled, record.features);
+  gap = record.features.due() - travelled;
   return touch;
 }
 

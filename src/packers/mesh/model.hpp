@@ -61,10 +61,9 @@ struct PairRecord {
   double elastic = 0;                                     // stored now [J]
   double damped = 0, rubbed = 0;                          // lost since the last search [J]
   double delta = 0;                                       // solver's overlap now [m]
-  double features_until = 0;  // travel of both bodies up to which `features` is all that can touch [m]
-  RodFeatures features;       // of the cylinder kernel: what touched at the last fresh look
-  double held = 0;            // size of the force when one of the two fell asleep [N]
-  double peak = 0;            // greatest depth since the last search, fraction of the thickness
+  RodFeatures features;                                   // of the cylinder kernel: what is known of the pair
+  double held = 0;  // size of the force when one of the two fell asleep [N]
+  double peak = 0;  // greatest depth since the last search, fraction of the thickness
   // touching steps since the last search, and those deeper than 5 % and 10 % of the thickness
   std::uint32_t touches = 0, deep_touches = 0, very_deep_touches = 0;
 };

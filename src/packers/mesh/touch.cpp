@@ -68,25 +68,29 @@ double travel_of(const State& state, std::uint32_t p) {
   return travel[a] + (is_container(b) ? 0.0 : travel[b]);
 }
 
-void look_afresh(const Model& model, State& state, std::uint32_t p, double travelled) {
+void take(const Model& model, State& state, std::uint32_t p, const Touch& t, double look_at) {
   PairRecord& r = state.pairs.record[p];
-  double gap = 0;
-  const Touch t = touch_pair(model, state.bodies, state.pairs.pair[p], travelled, r, gap);
   if (t.delta > 0) {
     push(model, state.bodies, state.pairs.pair[p], t, r);
     return;
   }
   if (r.delta > 0) part(r);
-  state.pairs.look_at[p] = travelled + std::max(0.0, gap);
+  state.pairs.look_at[p] = look_at;
 }
 
-/// The pairs that were queued to be followed.
-void follow_all(const Model& model, State& state, RodLooks& looks) {
-  looks.finish([&](std::uint32_t p, const Touch& t) {
-    if (t.delta > 0)
-      push(model, state.bodies, state.pairs.pair[p], t, state.pairs.record[p]);
-    else  // not where it was looked for
+void look_afresh(const Model& model, State& state, std::uint32_t p, double travelled) {
+  double gap = 0;
+  const Touch t = touch_pair(model, state.bodies, state.pairs.pair[p], travelled, state.pairs.record[p], gap);
+  take(model, state, p, t, travelled + std::max(0.0, gap));
+}
+
+/// The pairs of cylinders that were queued.
+void look_at_rods(const Model& model, State& state, RodLooks& looks) {
+  looks.finish([&](std::uint32_t p, const Touch& t, bool lost) {
+    if (lost)
       look_afresh(model, state, p, travel_of(state, p));
+    else
+      take(model, state, p, t, state.pairs.record[p].features.due());
   });
 }
 
@@ -94,13 +98,13 @@ void look(const Model& model, State& state, std::uint32_t p, RodLooks& looks) {
   const double travelled = travel_of(state, p);
   if (travelled < state.pairs.look_at[p]) return;
   PairRecord& r = state.pairs.record[p];
-  if (!r.features.followable || travelled >= r.features_until) {
+  if (!r.features.known) {
     look_afresh(model, state, p, travelled);
     return;
   }
   const auto [a, b] = state.pairs.pair[p];
-  looks.add(p, rod_of(model, state.bodies, a), rod_of(model, state.bodies, b), r.features);
-  if (looks.full()) follow_all(model, state, looks);
+  looks.add(p, rod_of(model, state.bodies, a), rod_of(model, state.bodies, b), travelled, r.features);
+  if (looks.full()) look_at_rods(model, state, looks);
 }
 
 }  // namespace
@@ -111,7 +115,7 @@ void touch(const Model& model, State& state) {
   parallel_for(active.size(), 64, [&](std::size_t from, std::size_t to) {
     thread_local RodLooks looks;
     for (std::size_t k = from; k < to; ++k) look(model, state, active[k], looks);
-    follow_all(model, state, looks);
+    look_at_rods(model, state, looks);
   });
 }
 
