@@ -96,7 +96,7 @@ std::vector<double> slab_volumes(const PackedBed& bed, const std::vector<double>
         const auto last =
             static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), high) - edges.begin());
         std::vector<double> own(edges.size(), 0.0);
-        if (shape.kind == ShapeClass::mesh)
+        if (seen_as_mesh(shape.kind))
           MeshBelow(shape, p).add(edges, first, last, 1, own);
         else
           for (std::size_t k = first; k < last; ++k) own[k] = volume_below(shape, p, edges[k]);

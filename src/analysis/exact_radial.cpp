@@ -185,7 +185,7 @@ std::vector<double> ring_volumes(const PackedBed& bed, const std::vector<double>
     const Shape& shape = *bed.shapes[p.shape];
     const double distance = p.pose.position.head<2>().norm(), bound = shape.bounding_radius * p.scale;
     if (p.pose.position.z() + bound <= z_low || p.pose.position.z() - bound >= z_high) return;
-    if (shape.kind == ShapeClass::mesh) {
+    if (seen_as_mesh(shape.kind)) {
       add_mesh_rings(shape.surface, p, radii, z_low, z_high, bins);
       return;
     }

@@ -34,7 +34,7 @@ Orientation empty_classes() {
 
 std::optional<Vec3> shape_axis(const Shape& shape) {
   if (shape.kind == ShapeClass::sphere) return std::nullopt;
-  if (shape.kind == ShapeClass::cylinder) return Vec3::UnitZ();
+  if (shape.kind == ShapeClass::cylinder || shape.kind == ShapeClass::tube) return Vec3::UnitZ();
   const Vec3& i = shape.inertia;
   if (i.maxCoeff() - i.minCoeff() <= kSameMoment * i.maxCoeff()) return std::nullopt;
   // the two that are closest to each other leave the third one apart; z wins a tie

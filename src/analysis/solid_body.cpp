@@ -7,31 +7,6 @@ namespace packbed {
 namespace {
 
 constexpr double kApart = 1, kNone = 0;  // an empty chord: from 1 to 0
-constexpr double kFlat = 1e-9;  // planes and points that differ by less, as a fraction of the size, are one
-
-/// Planes of the faces, coplanar triangles once; empty when a vertex lies outside one, that is, not convex.
-std::vector<std::pair<Vec3, double>> convex_planes(const TriangleMesh& mesh) {
-  const double size = bounding_box(mesh).diagonal().norm();
-  std::vector<std::pair<Vec3, double>> planes;
-  for (const auto& t : mesh.triangles) {
-    const auto at = [&](std::size_t i) -> const Vec3& {
-      return mesh.vertices[static_cast<std::size_t>(t[i])];
-    };
-    const Vec3 area = (at(1) - at(0)).cross(at(2) - at(0));
-    if (area.norm() <= kFlat * size * size) continue;
-    const Vec3 n = area.normalized();
-    const double offset = n.dot((at(0) + at(1) + at(2)) / 3);
-    const auto same = [&](const auto& p) {
-      return (p.first - n).norm() < 1e-7 && std::abs(p.second - offset) < 1e-7 * size;
-    };
-    if (std::any_of(planes.begin(), planes.end(), same)) continue;
-    planes.emplace_back(n, offset);
-  }
-  for (const auto& [n, offset] : planes)
-    for (const Vec3& v : mesh.vertices)
-      if (n.dot(v) > offset + 1e-6 * size) return {};
-  return planes;
-}
 
 /// Corners, middles of sides and of triangles: where bodies of flat faces dip into each other first.
 std::vector<Vec3> surface_points(const TriangleMesh& mesh) {
@@ -86,7 +61,7 @@ std::pair<double, double> cylinder_chord(double radius, double half_height, cons
 
 SolidShape::SolidShape(ShapePtr s) : shape(std::move(s)) {
   points = surface_points(shape->surface);
-  if (shape->kind != ShapeClass::mesh) return;
+  if (!seen_as_mesh(shape->kind)) return;
   planes = convex_planes(shape->surface);
   convex = !planes.empty();
   if (!convex) query = std::make_unique<MeshQuery>(shape->surface);

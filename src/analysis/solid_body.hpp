@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bed/packed_bed.hpp"
+#include "mesh/convex.hpp"
 #include "mesh/inside.hpp"
 
 namespace packbed {
@@ -15,9 +16,9 @@ struct SolidShape {
   explicit SolidShape(ShapePtr shape);
   ShapePtr shape;
   bool convex = true;
-  std::vector<std::pair<Vec3, double>> planes;  // convex meshes: outward normal n and n . x, each plane once
-  std::unique_ptr<MeshQuery> query;             // meshes that are not convex
-  std::vector<Vec3> points;                     // spread over the surface, own frame [m]
+  std::vector<Plane> planes;         // convex meshes: of the faces, each once
+  std::unique_ptr<MeshQuery> query;  // meshes that are not convex
+  std::vector<Vec3> points;          // spread over the surface, own frame [m]
 };
 
 /// A solid shape at a pose.

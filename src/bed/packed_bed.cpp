@@ -18,7 +18,7 @@ void add(Hash& hash, const Shape& shape) {
   hash.add(static_cast<int>(shape.kind));
   hash.add(shape.radius);
   hash.add(shape.half_height);
-  if (shape.kind != ShapeClass::mesh) return;
+  if (!seen_as_mesh(shape.kind)) return;
   for (const Vec3& v : shape.surface.vertices) add(hash, v);
   for (const auto& t : shape.surface.triangles) hash.add(t);
 }

@@ -370,7 +370,7 @@ SurfacePoints clustered(std::vector<Sample> samples) {
 }  // namespace
 
 double size_radius(const Shape& shape) {
-  return shape.kind == ShapeClass::mesh ? std::cbrt(3 * shape.volume / (4 * kPi)) : shape.radius;
+  return seen_as_mesh(shape.kind) ? std::cbrt(3 * shape.volume / (4 * kPi)) : shape.radius;
 }
 
 SurfacePoints sample_surface(const Shape& shape, double spacing) {

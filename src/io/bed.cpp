@@ -115,6 +115,7 @@ void put_shape(Hdf5Writer& file, const std::string& group, const Shape& shape, d
   file.array(group + "/from_file_rotation_wxyz",
              std::vector<double>{from.rotation.w(), from.rotation.x(), from.rotation.y(), from.rotation.z()},
              4);
+  if (shape.kind == ShapeClass::tube) file.attribute(group, "inner_radius_m", shape.inner_radius);
   put_surface(file, group, shape.surface);
   if (!shape.tets) return;
   file.array(group + "/tet_vertices", vectors(shape.tets->vertices, kItself), 3);
@@ -133,12 +134,16 @@ ShapePtr get_shape(const Hdf5Reader& file, const std::string& group) {
   shape->name = file.text_attribute(group, "name");
   shape->source = file.text_attribute(group, "source");
   shape->kind = kind_from(file.text_attribute(group, "class"),
-                          std::array{ShapeClass::sphere, ShapeClass::cylinder, ShapeClass::mesh});
+                          std::array{ShapeClass::sphere, ShapeClass::cylinder, ShapeClass::mesh,
+                                     ShapeClass::tube, ShapeClass::convex});
   for (const auto& [name, member] : shape_numbers()) (*shape).*member = file.number_attribute(group, name);
   shape->inertia = vectors_of(file.array<double>(group + "/inertia_m5", 3)).at(0);
   shape->from_file.position = vectors_of(file.array<double>(group + "/from_file_position_m", 3)).at(0);
   shape->from_file.rotation = quaternion_at(file.array<double>(group + "/from_file_rotation_wxyz", 4), 0);
+  if (shape->kind == ShapeClass::tube) shape->inner_radius = file.number_attribute(group, "inner_radius_m");
   shape->surface = get_surface(file, group);
+  if (shape->kind == ShapeClass::convex && !find_planes(*shape))
+    throw std::runtime_error(group + " is called convex and is not");
   if (!file.has(group + "/tets")) return shape;
   TetMesh tets;
   tets.vertices = vectors_of(file.array<double>(group + "/tet_vertices", 3));

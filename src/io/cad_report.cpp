@@ -20,6 +20,9 @@ std::string area(double square_metres) {
   return fmt::format("{:.6g} mm2", 1e6 * square_metres);
 }
 
+constexpr const char* kField =
+    "field: points on the surface against a distance field, which is made once for the shape";
+
 class Page {
  public:
   void line(const std::string& name, const std::string& value) {
@@ -83,10 +86,20 @@ void say_class(Page& page, const Shape& s) {
       page.line("kernel",
                 "cylinder: exact rims, side and ends; needs neither field nor triangles in the run");
       return;
+    case ShapeClass::tube:
+      page.line("shape",
+                fmt::format("tube of outer diameter {}, inner diameter {} and height {}",
+                            length(2 * s.radius), length(2 * s.inner_radius), length(2 * s.half_height)));
+      page.line("kernel", kField);
+      return;
+    case ShapeClass::convex:
+      page.line("shape", fmt::format("convex polyhedron of {} faces and {} corners", s.planes.size(),
+                                     s.corners.size()));
+      page.line("kernel", kField);
+      return;
     case ShapeClass::mesh:
-      page.line("shape", "mesh: neither a sphere nor a cylinder");
-      page.line("kernel",
-                "field: points on the surface against a distance field, which is made once for the shape");
+      page.line("shape", "mesh: no sphere, cylinder, tube or convex polyhedron");
+      page.line("kernel", kField);
       return;
   }
 }
@@ -109,6 +122,10 @@ void say_pellet(Page& page, const CadModel& model, const MeshReport& report, con
             fmt::format("{:.6g}, {:.6g}, {:.6g} mm2 about its own x, y, z", k.x(), k.y(), k.z()));
   page.line("bounding radius", length(s->bounding_radius));
   page.line("thickness", fmt::format("{}: overlaps are fractions of it", length(s->smallest_thickness)));
+  if (s->thin_walled())
+    page.line("thin wall", fmt::format("{:.3g} % of its size across, under {:.3g} %: impacts are held to a "
+                                       "fraction of that wall, which takes short steps",
+                                       50 * s->smallest_thickness / s->bounding_radius, 100 * kThinWalled));
   if (!model.tets)
     page.line("skipped", "tetrahedra (--tets makes them; no kernel of the mesh packer needs any)");
 }
@@ -126,8 +143,10 @@ void say_container(Page& page, const CadModel& model, const MeshReport& report, 
     if (c.height > 0) page.line("inner height", fmt::format("{}, floor to rim", length(c.height)));
     if (c.radius > 0)
       page.line("free diameter", fmt::format("{} round the axis at mid-height", length(2 * c.radius)));
-    if (c.radius == 0)
-      page.line("note", "the axis runs through material at mid-height: there is no inside there");
+    if (c.core_radius > 0)
+      page.line("core",
+                fmt::format("of diameter {} there: pour, layers find no room", length(2 * c.core_radius)));
+    if (c.radius == 0) page.line("note", "no hollow round the axis at mid-height: nothing can be poured in");
   }
   page.line("axes", "moved so that the floor is at z = 0 and the axis at the origin");
 }

@@ -1,24 +1,13 @@
 #include "io/case_keys.hpp"
 
+#include "io/case_ranges.hpp"
+#include "io/case_shape_keys.hpp"
+
 namespace packbed {
 namespace {
 
 using D = Dimension;
 
-constexpr Range at_least(double low, std::string_view why = {}) {
-  return {.low = low, .why = why};
-}
-constexpr Range between(double low, double high, std::string_view why = {}) {
-  return {.low = low, .high = high, .why = why};
-}
-constexpr Range above_zero(std::string_view why = {}) {
-  return {.low = 0, .without_low = true, .why = why};
-}
-constexpr Range above_zero_to(double high, std::string_view why = {}) {
-  return {.low = 0, .high = high, .without_low = true, .why = why};
-}
-
-constexpr Range kSize = above_zero_to(100, "a body has a size");
 /// exp(-2): see restitution_from_damping
 constexpr double kRestitutionAtCritical = 0.1353352832366127;
 
@@ -55,27 +44,12 @@ void pellet_keys(Fields& f, PelletRecord& r) {
   f.when(!r.file.empty(), "file = ...", [&] {
     f.choice({.name = "unit", .meaning = "of the lengths in an STL, OBJ, PLY or MSH file (STEP has its own)"},
              r.unit, {"m", "cm", "mm", "um", "in"});
-    f.flag({.name = "recognise", .meaning = "take a mesh that is a sphere or cylinder for the exact body"},
+    f.flag({.name = "recognise",
+            .meaning = "take a mesh that is a sphere, a cylinder, a tube or a convex polyhedron for that"},
            r.recognise);
   });
-  f.when(r.file.empty(), "no file", [&] {
-    f.choice({.name = "shape", .meaning = "instead of a file", .required = true}, r.shape,
-             {"sphere", "cylinder"});
-    f.real({.name = "diameter",
-            .meaning = "of the pellet",
-            .dimension = D::length,
-            .range = kSize,
-            .required = true},
-           r.diameter);
-    f.when(r.shape == "cylinder", "shape = \"cylinder\"", [&] {
-      f.real({.name = "height",
-              .meaning = "of the cylinder",
-              .dimension = D::length,
-              .range = kSize,
-              .required = true},
-             r.height);
-    });
-  });
+  f.when(r.file.empty(), "no file", [&] { shape_keys(f, r); });
+  chord_error_key(f, r);
   f.real({.name = "density",
           .meaning = "of the pellet's material, its volume times this is its mass",
           .dimension = D::density,

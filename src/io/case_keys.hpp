@@ -7,14 +7,15 @@
 
 #include "bed/scene.hpp"
 #include "io/case_fields.hpp"
+#include "shape/library.hpp"
 
 namespace packbed {
 
 struct PelletRecord {
   std::string name, file, unit, shape;
   bool recognise = true;
-  double diameter = 0, height = 0;  // [m]
-  double density = 0;               // [kg/m3]
+  LibrarySizes sizes;
+  double density = 0;  // [kg/m3]
   double share = 1;
 };
 

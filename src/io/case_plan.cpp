@@ -37,7 +37,7 @@ std::string wall_clock(double s) {
 /// What a kernel can do alone; shapes of different kernels, and walls of triangles, are met through the
 /// field.
 ShapeClass own_kernel(const Scene& s, const Shape& shape) {
-  return s.kernel == "field" ? ShapeClass::mesh : shape.kind;
+  return s.kernel == "field" || seen_as_mesh(shape.kind) ? ShapeClass::mesh : shape.kind;
 }
 bool mixed_kernels(const Scene& s) {
   return std::any_of(s.pellets.begin(), s.pellets.end(), [&](const PelletKind& k) {
@@ -168,6 +168,11 @@ std::string size_text(const Shape& shape) {
   if (shape.kind == ShapeClass::cylinder)
     return fmt::format("{} x {} (diameter x height)", q(2 * shape.radius, D::length),
                        q(2 * shape.half_height, D::length));
+  if (shape.kind == ShapeClass::tube)
+    return fmt::format("{} / {} x {} (outer / inner diameter x height)", q(2 * shape.radius, D::length),
+                       q(2 * shape.inner_radius, D::length), q(2 * shape.half_height, D::length));
+  if (shape.kind == ShapeClass::convex)
+    return fmt::format("{} faces, {} across", shape.planes.size(), q(2 * shape.bounding_radius, D::length));
   return fmt::format("{} triangles, {} across", shape.surface.triangles.size(),
                      q(2 * shape.bounding_radius, D::length));
 }

@@ -85,10 +85,10 @@ CadOptions cad_options(const std::string& unit, bool recognise) {
 
 ShapePtr make_pellet(const CaseRecord& record, const PelletRecord& r) {
   const std::string name = name_of(r.name, r.file, r.shape);
-  if (!r.file.empty())
-    return load_shape(name, (fs::path(record.folder) / r.file).string(), cad_options(r.unit, r.recognise));
-  if (r.shape == "sphere") return make_sphere(name, r.diameter / 2);
-  return make_cylinder(name, r.diameter, r.height);
+  if (r.file.empty()) return make_library_shape(name, r.shape, r.sizes);
+  CadOptions options = cad_options(r.unit, r.recognise);
+  options.chord_error = r.sizes.chord_error;
+  return load_shape(name, (fs::path(record.folder) / r.file).string(), options);
 }
 
 Container make_container_of(const CaseRecord& record) {
@@ -173,6 +173,9 @@ void check_container(Problems& problems, const Scene& scene) {
   if (c.kind == ContainerKind::plane && feed.radius == 0)
     problems.add("feed.radius", "\"auto\" on a plane", "a length",
                  "a plane has no wall that could tell how wide to pour");
+  if (c.core_radius > 0 && feed.kind == FeedKind::layers)
+    problems.add("feed.kind", "\"layers\" round a core", "\"pour\" or \"placed\"",
+                 "a layer fills the whole circle and finds no room: feed.kind = \"pour\"");
   double turning = 0;  // radius that a pellet needs to enter in any rotation
   for (const PelletKind& kind : scene.pellets) turning = std::max(turning, kind.shape->bounding_radius);
   if (has_wall && c.radius > turning && feed.radius > (c.radius - turning) * (1 + 1e-9))

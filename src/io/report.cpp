@@ -66,7 +66,7 @@ Json shape_json(const Shape& shape, double density) {
                {"equivalent_diameter_m", shape.equivalent_diameter()},
                {"bounding_radius_m", shape.bounding_radius},
                {"density_kg_m3", density}};
-  if (shape.kind == ShapeClass::mesh) put_surface(json, shape.surface);
+  if (seen_as_mesh(shape.kind)) put_surface(json, shape.surface);
   return json;
 }
 

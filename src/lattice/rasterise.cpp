@@ -326,7 +326,7 @@ const BitBlock& Rasteriser::mesh(const TriangleMesh& surface, const Pose& pose, 
 }
 
 const BitBlock& Rasteriser::body(const Shape& shape, const Pose& pose, double scale, int z_begin, int z_end) {
-  if (shape.kind == ShapeClass::mesh) return mesh(shape.surface, pose, scale, z_begin, z_end);
+  if (seen_as_mesh(shape.kind)) return mesh(shape.surface, pose, scale, z_begin, z_end);
   const Vec3 centre = (pose.position - frame_.origin) / frame_.pitch - Vec3::Constant(0.5);
   const double size = scale / frame_.pitch, radius = shape.radius * size, half = shape.half_height * size;
   if (shape.kind == ShapeClass::sphere) {

@@ -6,6 +6,7 @@
 
 namespace packbed {
 
+using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;  // printed and stored as (w, x, y, z)

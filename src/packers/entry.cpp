@@ -70,7 +70,7 @@ void check_pose(const Pellet& p) {
 
 double radial_extent(const Shape& shape, double scale, const Pose& pose) {
   const auto radius_of = [](const Vec3& x) { return std::hypot(x.x(), x.y()); };
-  if (shape.kind == ShapeClass::mesh) {
+  if (seen_as_mesh(shape.kind)) {
     double extent = 0;
     for (const Vec3& v : shape.surface.vertices)
       extent = std::max(extent, radius_of(pose.to_world(v * scale)));

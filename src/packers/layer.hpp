@@ -6,8 +6,6 @@
 
 namespace packbed {
 
-using Vec2 = Eigen::Vector2d;
-
 /// A hexagonal pattern within a circle round the origin: the sites nearest to the origin of a lattice whose
 /// offset is chosen so that they fit as loosely as possible.
 struct LayerPattern {

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/convex.hpp"
+
 namespace packbed {
 namespace {
 
@@ -53,8 +55,8 @@ OverlapTest::OverlapTest(const std::vector<PelletKind>& kinds) {
   for (const PelletKind& kind : kinds) {
     auto body = std::make_unique<Body>();
     body->shape = kind.shape;
-    if (kind.shape->kind == ShapeClass::mesh) {
-      body->convex = is_convex(kind.shape->surface);
+    if (seen_as_mesh(kind.shape->kind)) {
+      body->convex = !convex_planes(kind.shape->surface).empty();
       if (body->convex) body->faces = faces_for_fcl(kind.shape->surface);
     }
     bodies_.push_back(std::move(body));
@@ -121,22 +123,6 @@ double OverlapTest::depth(const Pellet& a, const Pellet& b) const {
   for (std::size_t i = 0; i < result.numContacts(); ++i)
     deepest = std::max(deepest, std::abs(result.getContact(i).penetration_depth));
   return deepest / unit;
-}
-
-bool is_convex(const TriangleMesh& mesh) {
-  double size = 0;
-  for (const Vec3& v : mesh.vertices) size = std::max(size, v.cwiseAbs().maxCoeff());
-  for (const auto& t : mesh.triangles) {
-    const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vec3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vec3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
-    const Vec3 normal = (b - a).cross(c - a);
-    const double length = normal.norm();
-    if (!(length > 1e-12 * size * size)) continue;  // a sliver has no reliable plane
-    for (const Vec3& v : mesh.vertices)
-      if ((v - a).dot(normal) > 1e-6 * size * length) return false;
-  }
-  return !mesh.triangles.empty();
 }
 
 }  // namespace packbed

@@ -29,7 +29,4 @@ class OverlapTest {
   std::vector<std::unique_ptr<Body>> bodies_;  // one a kind
 };
 
-/// Every vertex lies behind every face, within 1e-6 of the size.
-bool is_convex(const TriangleMesh& mesh);
-
 }  // namespace packbed

@@ -19,8 +19,9 @@ struct Container {
   ContainerKind kind = ContainerKind::tube;
   std::string name, source;
   double radius = 0;  // tube: inner radius [m]; mesh: radius of the largest upright cylinder round the axis
-                      // that fits at mid-height [m]
-  double height = 0;  // of the inside, floor to rim [m]
+                      // that fits at mid-height, round the core if there is one [m]
+  double core_radius = 0;  // mesh: of the material round the axis at mid-height [m]; 0: there is none
+  double height = 0;       // of the inside, floor to rim [m]
   TriangleMesh surface;    // of the wall solid as read, in bed axes; empty for none and plane, and for a tube
                            // given by its sizes
   double mesh_volume = 0;  // of the wall solid as read [m3]

@@ -116,35 +116,62 @@ bool facet_follows_circle(const AxisView& view, const Triangle& t, const Round<2
   return true;
 }
 
-std::optional<CylinderFit> cylinder_along(const TriangleMesh& mesh, const Vec3& axis) {
+// Side facets of a body about an axis through `middle`: those that look away from it, or towards it.
+std::vector<Triangle> side(const AxisView& view, const Eigen::Vector2d& middle, bool outward) {
+  std::vector<Triangle> out;
+  for (const Triangle& t : view.mesh.triangles) {
+    if (!side_facet(view, t)) continue;
+    const Eigen::Vector2d away = view.across(triangle_centre(view.mesh, t)) - middle;
+    if ((view.across(triangle_area_vector(view.mesh, t)).dot(away) > 0) == outward) out.push_back(t);
+  }
+  return out;
+}
+
+// The circle that all of these facets follow.
+std::optional<Round<2>> circle_of(const AxisView& view, const std::vector<Triangle>& facets) {
+  std::vector<Eigen::Vector2d> points;
+  for (const Triangle& t : facets)
+    for (int k = 0; k < 3; ++k) points.push_back(view.across(corner(view.mesh, t, k)));
+  const auto circle = fit_round<2>(points);
+  if (!circle) return {};
+  for (const Triangle& t : facets)
+    if (!facet_follows_circle(view, t, *circle)) return {};
+  return circle;
+}
+
+// Facets that are no side lie in one of two ends, within the outer circle.
+bool ends_are_flat(const AxisView& view, double low, double high, const Round<2>& circle) {
+  const double step = kRecogniseTolerance * (high - low), size = (1 + kRecogniseTolerance) * circle.radius;
+  for (const Triangle& t : view.mesh.triangles) {
+    if (side_facet(view, t)) continue;
+    const bool up = unit_normal(view.mesh, t).dot(view.axis) > 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = corner(view.mesh, t, k);
+      if (std::abs(view.along(p) - (up ? high : low)) > step) return false;
+      if ((view.across(p) - circle.centre).norm() > size) return false;
+    }
+  }
+  return true;
+}
+
+std::optional<CylinderFit> cylinder_along(const TriangleMesh& mesh, const Vec3& axis, const Vec3& middle) {
   const AxisView view(mesh, axis);
   double low = INFINITY, high = -INFINITY;
   for (const Vec3& p : mesh.vertices) {
     low = std::min(low, view.along(p));
     high = std::max(high, view.along(p));
   }
-  std::vector<Eigen::Vector2d> side;
-  for (const Triangle& t : mesh.triangles)
-    if (side_facet(view, t))
-      for (int k = 0; k < 3; ++k) side.push_back(view.across(corner(mesh, t, k)));
-  const auto circle = fit_round<2>(side);
-  if (!circle) return {};
-  const double step = kRecogniseTolerance * (high - low), size = (1 + kRecogniseTolerance) * circle->radius;
-  for (const Triangle& t : mesh.triangles) {
-    if (side_facet(view, t)) {
-      if (!facet_follows_circle(view, t, *circle)) return {};
-      continue;
-    }
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 p = corner(mesh, t, k);
-      const bool up = unit_normal(mesh, t).dot(axis) > 0;
-      if (std::abs(view.along(p) - (up ? high : low)) > step) return {};
-      if ((view.across(p) - circle->centre).norm() > size) return {};
-    }
-  }
+  const auto circle = circle_of(view, side(view, view.across(middle), true));
+  if (!circle || !ends_are_flat(view, low, high, *circle)) return {};
   const Eigen::Vector2d c = circle->centre;
-  return CylinderFit{c.x() * view.u + c.y() * view.v + 0.5 * (low + high) * axis, axis, circle->radius,
-                     high - low};
+  CylinderFit fit{c.x() * view.u + c.y() * view.v + 0.5 * (low + high) * axis, axis, circle->radius,
+                  high - low, 0};
+  const std::vector<Triangle> hole = side(view, view.across(middle), false);
+  if (hole.empty()) return fit;
+  const auto inner = circle_of(view, hole);
+  if (!inner || (inner->centre - c).norm() > kRecogniseTolerance * circle->radius) return {};
+  fit.inner_radius = inner->radius;
+  return fit;
 }
 
 // Plane patches that face straight up, lowest first; those too small to be a floor are left out.
@@ -229,9 +256,10 @@ std::optional<SphereFit> recognise_sphere(const TriangleMesh& mesh) {
 }
 
 std::optional<CylinderFit> recognise_cylinder(const TriangleMesh& mesh) {
+  const Vec3 middle = mass_properties(mesh).centre;
   for (const Vec3& candidate : axis_candidates(mesh))
     if (const auto axis = square_to_ends(mesh, candidate))
-      if (const auto fit = cylinder_along(mesh, *axis)) return fit;
+      if (const auto fit = cylinder_along(mesh, *axis, middle)) return fit;
   return {};
 }
 

@@ -18,8 +18,9 @@ std::optional<SphereFit> recognise_sphere(const TriangleMesh& mesh);
 struct CylinderFit {
   Vec3 centre, axis;              // [m], unit vector
   double radius = 0, height = 0;  // [m]
+  double inner_radius = 0;        // of a hole along the axis [m]; 0: there is none
 };
-/// A closed mesh of two flat parallel ends and one round side.
+/// A closed mesh of two flat parallel ends and one round side, or two round sides about one axis.
 std::optional<CylinderFit> recognise_cylinder(const TriangleMesh& mesh);
 
 struct TubeFit {

@@ -16,10 +16,6 @@ namespace {
 constexpr double kEqualMoments = 1e-2;  // relative: moments closer than this belong to one axis of revolution
 constexpr double kSameMoments = 1e-6;   // relative: no axis can be told from the others
 
-double cylinder_volume(double radius, double half_height) {
-  return kPi * radius * radius * 2 * half_height;
-}
-
 void set_sphere(Shape& s, double radius) {
   s.kind = ShapeClass::sphere;
   s.radius = radius;
@@ -34,7 +30,7 @@ void set_cylinder(Shape& s, double radius, double half_height) {
   s.kind = ShapeClass::cylinder;
   s.radius = radius;
   s.half_height = half_height;
-  s.volume = cylinder_volume(radius, half_height);
+  s.volume = kPi * radius * radius * 2 * half_height;
   s.area = 2 * kPi * radius * (radius + 2 * half_height);
   const double across = s.volume * (radius * radius / 4 + half_height * half_height / 3);
   s.inertia = Vec3(across, across, s.volume * radius * radius / 2);
@@ -42,10 +38,24 @@ void set_cylinder(Shape& s, double radius, double half_height) {
   s.smallest_thickness = 2 * std::min(radius, half_height);
 }
 
-// Stretches points about the origin so that a body of volume `from` gets volume `to`: a cylinder square to
-// its axis.
+void set_tube(Shape& s, double radius, double inner_radius, double half_height) {
+  const double squares = radius * radius + inner_radius * inner_radius;
+  s.kind = ShapeClass::tube;
+  s.radius = radius;
+  s.inner_radius = inner_radius;
+  s.half_height = half_height;
+  s.volume = kPi * (radius - inner_radius) * (radius + inner_radius) * 2 * half_height;
+  s.area = 2 * kPi * (radius + inner_radius) * (2 * half_height + radius - inner_radius);
+  const double across = s.volume * (squares / 4 + half_height * half_height / 3);
+  s.inertia = Vec3(across, across, s.volume * squares / 2);
+  s.bounding_radius = std::hypot(radius, half_height);
+  s.smallest_thickness = std::min(radius - inner_radius, 2 * half_height);
+}
+
+// Stretches points about the origin so that a body of volume `from` gets volume `to`: cylinder and tube
+// square to the axis.
 void conserve(std::vector<Vec3>& points, ShapeClass kind, double from, double to) {
-  const bool flat_ends = kind == ShapeClass::cylinder;
+  const bool flat_ends = kind == ShapeClass::cylinder || kind == ShapeClass::tube;
   const double s = flat_ends ? std::sqrt(to / from) : std::cbrt(to / from);
   for (Vec3& p : points) p = Vec3(s * p.x(), s * p.y(), flat_ends ? p.z() : s * p.z());
 }
@@ -54,6 +64,13 @@ double reach(const std::vector<Vec3>& points) {
   double largest = 0;
   for (const Vec3& p : points) largest = std::max(largest, p.norm());
   return largest;
+}
+
+// The surface of an exact primitive gets the primitive's volume.
+void give_volume(Shape& s) {
+  s.mesh_volume = mass_properties(s.surface).volume;
+  conserve(s.surface.vertices, s.kind, s.mesh_volume, s.volume);
+  s.bounding_radius = std::max(s.bounding_radius, reach(s.surface.vertices));
 }
 
 Vec3 to_own(const Pose& from_file, const Vec3& p) {
@@ -103,7 +120,10 @@ bool take_for_primitive(Shape& s, const TriangleMesh& mesh, double true_volume) 
     set_sphere(s, ball->radius);
     s.from_file = {ball->centre, Quat::Identity()};
   } else if (const auto cylinder = recognise_cylinder(mesh)) {
-    set_cylinder(s, cylinder->radius, cylinder->height / 2);
+    if (cylinder->inner_radius > 0)
+      set_tube(s, cylinder->radius, cylinder->inner_radius, cylinder->height / 2);
+    else
+      set_cylinder(s, cylinder->radius, cylinder->height / 2);
     s.from_file = {cylinder->centre, turn_to_z(cylinder->axis)};
   } else {
     return false;
@@ -126,6 +146,10 @@ std::string_view to_string(ShapeClass kind) {
       return "cylinder";
     case ShapeClass::mesh:
       return "mesh";
+    case ShapeClass::tube:
+      return "tube";
+    case ShapeClass::convex:
+      return "convex";
   }
   return "";
 }
@@ -145,9 +169,7 @@ ShapePtr make_sphere(const std::string& name, double radius, int facets) {
     profile.emplace_back(radius * std::sin(kPi * i / steps), -radius * std::cos(kPi * i / steps));
   profile.emplace_back(0, radius);
   s->surface = revolved(profile, facets);
-  s->mesh_volume = mass_properties(s->surface).volume;
-  conserve(s->surface.vertices, s->kind, s->mesh_volume, s->volume);
-  s->bounding_radius = std::max(s->bounding_radius, reach(s->surface.vertices));
+  give_volume(*s);
   return s;
 }
 
@@ -159,9 +181,23 @@ ShapePtr make_cylinder(const std::string& name, double diameter, double height, 
   const double r = diameter / 2, h = height / 2;
   set_cylinder(*s, r, h);
   s->surface = revolved({{0, -h}, {r, -h}, {r, h}, {0, h}}, facets);
-  s->mesh_volume = mass_properties(s->surface).volume;
-  conserve(s->surface.vertices, s->kind, s->mesh_volume, s->volume);
-  s->bounding_radius = std::max(s->bounding_radius, reach(s->surface.vertices));
+  give_volume(*s);
+  return s;
+}
+
+ShapePtr make_ring(const std::string& name, double diameter, double inner_diameter, double height,
+                   int facets) {
+  if (!(inner_diameter < diameter))
+    throw InputError("inner_diameter", fmt::format("{:.6g} mm", 1e3 * inner_diameter),
+                     fmt::format("less than the diameter, {:.6g} mm", 1e3 * diameter));
+  auto s = std::make_shared<Shape>();
+  s->name = name;
+  s->source = fmt::format("ring of diameters {:.6g} and {:.6g} mm and height {:.6g} mm", 1e3 * diameter,
+                          1e3 * inner_diameter, 1e3 * height);
+  const double r = diameter / 2, inner = inner_diameter / 2, h = height / 2;
+  set_tube(*s, r, inner, h);
+  s->surface = revolved({{inner, -h}, {r, -h}, {r, h}, {inner, h}}, facets);
+  give_volume(*s);
   return s;
 }
 
@@ -177,12 +213,11 @@ ShapePtr make_shape(const std::string& name, const std::string& source, const Tr
   s->mesh_volume = m.volume;
   if (recognise && take_for_primitive(*s, mesh, true_volume)) {
     move_in(*s, mesh);
-    conserve(s->surface.vertices, s->kind, m.volume, s->volume);
-    s->bounding_radius = std::max(s->bounding_radius, reach(s->surface.vertices));
+    give_volume(*s);
     return s;
   }
   s->kind = ShapeClass::mesh;
-  s->radius = s->half_height = 0;
+  s->radius = s->inner_radius = s->half_height = 0;
   s->from_file = {m.centre, principal_frame(m.inertia)};
   move_in(*s, mesh);
   if (true_volume > 0) conserve(s->surface.vertices, s->kind, m.volume, true_volume);
@@ -192,7 +227,16 @@ ShapePtr make_shape(const std::string& name, const std::string& source, const Tr
   s->inertia = own.inertia.diagonal();
   s->bounding_radius = reach(s->surface.vertices);
   s->smallest_thickness = thinnest_wall(s->surface).value;
+  if (recognise && find_planes(*s)) s->kind = ShapeClass::convex;
   return s;
+}
+
+bool find_planes(Shape& shape) {
+  std::vector<Plane> planes = convex_planes(shape.surface);
+  if (planes.empty() || planes.size() > kMostPlanes) return false;
+  shape.corners = polyhedron_corners(shape.surface, planes);
+  shape.planes = std::move(planes);
+  return true;
 }
 
 ShapePtr with_tets(const Shape& shape, const TetMesh& tets) {

@@ -154,7 +154,7 @@ TEST(CaseRefuses, WrongWordOfAList) {
 
 TEST(CaseRefuses, KeyThatHasNoMeaningHere) {
   expect_refused("shape = \"cylinder\"", "shape = \"sphere\"",
-                 {"bed.toml:4: pellet.height", "only with shape = \"cylinder\""});
+                 {"bed.toml:4: pellet.height", "only with shape = \"cylinder\" or \"ring\""});
   expect_refused("kind = \"layers\"", "kind = \"placed\"",
                  {"feed.count", "only with kind = \"layers\" or \"pour\""});
 }

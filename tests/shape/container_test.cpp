@@ -80,6 +80,26 @@ TEST(MakeContainer, BaffleInsideIsNoTube) {
   EXPECT_EQ(c.kind, ContainerKind::mesh);
 }
 
+TEST(MakeContainer, AnnulusStandsOnTheFloorOfItsHollow) {
+  for (const double core_top : {kFloor + kH, kFloor + 1.1 * kH, kFloor + 0.8 * kH}) {
+    const TriangleMesh annulus = revolved({{0, 0},
+                                           {kOut, 0},
+                                           {kOut, kFloor + kH},
+                                           {kR, kFloor + kH},
+                                           {kR, kFloor},
+                                           {7.5e-3, kFloor},
+                                           {7.5e-3, core_top},
+                                           {0, core_top}},
+                                          64);
+    const Container c = make_container("annulus", "file", shifted(annulus, Vec3(1, 2, 3)));
+    ASSERT_EQ(c.kind, ContainerKind::mesh);
+    EXPECT_NEAR(bounding_box(c.surface).min().z(), -kFloor, 1e-12);
+    EXPECT_NEAR(c.height, std::max(core_top - kFloor, kH), 1e-12);
+    EXPECT_NEAR(c.radius, kR * std::cos(kPi / 64), 1e-9);
+    EXPECT_NEAR(c.core_radius, 7.5e-3, 1e-9);
+  }
+}
+
 TEST(MakeContainer, SolidBlockHasNoInside) {
   const Container c = make_container("c", "file", box_mesh(Vec3(0, 0, 0), Vec3(1, 1, 1)));
   EXPECT_EQ(c.kind, ContainerKind::mesh);

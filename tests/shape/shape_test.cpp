@@ -105,19 +105,84 @@ TEST(MakeShape, RecognisesASphereInAnyPose) {
   expect_own_frame_is_principal(*s);
 }
 
-TEST(MakeShape, PolygonsOfEightSidesAndCubesAreWhatTheyAre) {
-  EXPECT_EQ(make_shape("p", "file", a38(8))->kind, ShapeClass::mesh);
-  EXPECT_EQ(make_shape("p", "file", box_mesh(Vec3::Zero(), Vec3::Ones()))->kind, ShapeClass::mesh);
+TEST(MakeShape, PolygonsOfEightSidesAndCubesAreConvexPolyhedra) {
+  const auto faces = [](const TriangleMesh& mesh) {
+    const ShapePtr s = make_shape("p", "file", mesh);
+    EXPECT_EQ(s->kind, ShapeClass::convex);
+    return std::pair(s->planes.size(), s->corners.size());
+  };
+  EXPECT_EQ(faces(moved(a38(8), somewhere(3))), std::pair(std::size_t{10}, std::size_t{16}));
+  EXPECT_EQ(faces(moved(box_mesh(Vec3::Zero(), Vec3(1, 2, 3)), somewhere(4))),
+            std::pair(std::size_t{6}, std::size_t{8}));
 }
 
-TEST(MakeShape, BarrelConeTubeAndDomedEndsAreNoCylinders) {
-  const auto kind = [](const std::vector<std::pair<double, double>>& profile) {
-    return make_shape("p", "file", revolved(profile, 48))->kind;
+TEST(MakeShape, BarrelConeAndDomedEndsAreNoCylinders) {
+  const auto kind = [](const std::vector<std::pair<double, double>>& profile, int facets) {
+    return make_shape("p", "file", revolved(profile, facets))->kind;
   };
-  EXPECT_EQ(kind({{0, 0}, {1, 0}, {1.02, 1}, {1, 2}, {0, 2}}), ShapeClass::mesh);
-  EXPECT_EQ(kind({{0, 0}, {1, 0}, {0.98, 2}, {0, 2}}), ShapeClass::mesh);
-  EXPECT_EQ(kind({{0.5, 0}, {1, 0}, {1, 2}, {0.5, 2}}), ShapeClass::mesh);
-  EXPECT_EQ(kind({{0, 0}, {1, 0}, {1, 2}, {0, 2.05}}), ShapeClass::mesh);
+  for (const auto& [facets, is] : {std::pair{48, ShapeClass::convex}, {200, ShapeClass::mesh}}) {
+    EXPECT_EQ(kind({{0, 0}, {1, 0}, {1.02, 1}, {1, 2}, {0, 2}}, facets), is);
+    EXPECT_EQ(kind({{0, 0}, {1, 0}, {0.98, 2}, {0, 2}}, facets), is);
+    EXPECT_EQ(kind({{0, 0}, {1, 0}, {1, 2}, {0, 2.05}}, facets), is);
+  }
+}
+
+TEST(MakeShape, PlanesAndCornersBoundTheBody) {
+  const ShapePtr s = make_shape("p", "file", moved(a38(8), somewhere(6)));
+  for (const Vec3& p : s->corners) {
+    int on = 0;
+    for (const Plane& plane : s->planes) {
+      EXPECT_NEAR(plane.normal.norm(), 1, 1e-12);
+      EXPECT_LT(plane.normal.dot(p) - plane.offset, 1e-9 * kR);
+      on += std::abs(plane.normal.dot(p) - plane.offset) < 1e-9 * kR;
+    }
+    EXPECT_EQ(on, 3);
+  }
+}
+
+TriangleMesh ring(double outer, double inner, double height, int facets) {
+  return revolved({{inner, 0}, {outer, 0}, {outer, height}, {inner, height}}, facets);
+}
+
+TEST(MakeShape, RecognisesATubeInAnyPoseWithTheSizesOfItsCorners) {
+  for (std::uint32_t i = 0; i < 4; ++i)
+    for (const double inner : {0.1 * kR, 0.5 * kR, 0.95 * kR}) {
+      const ShapePtr s = make_shape("p", "file", moved(ring(kR, inner, kH, 48), somewhere(i)));
+      ASSERT_EQ(s->kind, ShapeClass::tube) << inner;
+      EXPECT_NEAR(s->radius, kR, 1e-9 * kR);
+      EXPECT_NEAR(s->inner_radius, inner, 1e-9 * kR);
+      EXPECT_NEAR(s->half_height, kH / 2, 1e-9 * kH);
+      EXPECT_NEAR(s->volume / (kPi * (kR * kR - inner * inner) * kH), 1, 1e-8);
+      EXPECT_NEAR(s->smallest_thickness, kR - inner, 1e-9 * kR);
+      EXPECT_EQ(s->thin_walled(), inner > 0.8 * kR);
+      expect_own_frame_is_principal(*s);
+    }
+}
+
+TEST(MakeShape, NotEveryHoleMakesATube) {
+  const auto kind = [](const TriangleMesh& mesh) { return make_shape("p", "file", mesh)->kind; };
+  EXPECT_EQ(kind(revolved({{0.5, 0}, {1, 0}, {1, 2}, {0.6, 2}}, 48)), ShapeClass::mesh);  // a funnel
+  EXPECT_EQ(kind(revolved({{0.5, 0}, {1, 0}, {1, 2}, {0, 2}, {0, 1}, {0.5, 1}}, 48)),
+            ShapeClass::mesh);                            // blind
+  EXPECT_EQ(kind(ring(1, 0.5, 2, 8)), ShapeClass::mesh);  // an octagon
+  TriangleMesh off = ring(1, 0.5, 2, 48);
+  for (Vec3& p : off.vertices)
+    if (p.head<2>().norm() < 0.6) p.x() += 0.01;  // not about the axis
+  EXPECT_EQ(kind(off), ShapeClass::mesh);
+}
+
+TEST(MakeRing, HasItsClosedForm) {
+  const double inner = 0.6 * kR;
+  const ShapePtr s = make_ring("ring", 2 * kR, 2 * inner, kH);
+  Shape rest = *make_cylinder("outside", 2 * kR, kH);
+  const Shape hole = *make_cylinder("hole", 2 * inner, kH);
+  EXPECT_EQ(s->kind, ShapeClass::tube);
+  EXPECT_NEAR(s->volume / (rest.volume - hole.volume), 1, 1e-14);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(s->inertia[k] / (rest.inertia[k] - hole.inertia[k]), 1, 1e-13);
+  const double ends = 2 * kPi * inner * inner;
+  EXPECT_NEAR(s->area / (rest.area + hole.area - 2 * ends), 1, 1e-14);
+  expect_own_frame_is_principal(*s);
+  EXPECT_THROW(make_ring("ring", 2 * kR, 2 * kR, kH), InputError);
 }
 
 TEST(MakeShape, ToleranceIsTheStatedOne) {
@@ -132,7 +197,7 @@ TEST(MakeShape, TrueVolumeTellsAPrismFromACylinder) {
   const TriangleMesh mesh = a38(12);
   const double prism = mass_properties(mesh).volume;
   EXPECT_EQ(make_shape("p", "file", mesh, true, kPi * kR * kR * kH)->kind, ShapeClass::cylinder);
-  EXPECT_EQ(make_shape("p", "file", mesh, true, prism)->kind, ShapeClass::mesh);
+  EXPECT_EQ(make_shape("p", "file", mesh, true, prism)->kind, ShapeClass::convex);
 }
 
 TEST(MakeShape, NotRecognisingLeavesTheMeshTheBody) {
@@ -148,10 +213,10 @@ TEST(MakeShape, NotRecognisingLeavesTheMeshTheBody) {
 }
 
 TEST(MakeShape, VolumeIsConservedWhenTheCadVolumeIsKnown) {
-  const TriangleMesh ring =
-      moved(revolved({{1e-3, 0}, {2e-3, 0}, {2e-3, 5e-3}, {1e-3, 5e-3}}, 24), somewhere(6));
-  const double exact = kPi * 3e-6 * 5e-3;
-  const ShapePtr s = make_shape("ring", "file", ring, true, exact);
+  const TriangleMesh funnel =
+      moved(revolved({{1e-3, 0}, {2e-3, 0}, {2e-3, 5e-3}, {1.5e-3, 5e-3}}, 24), somewhere(6));
+  const double exact = kPi * 5e-3 * (4e-6 - (1 + 1.5 + 2.25) * 1e-6 / 3);
+  const ShapePtr s = make_shape("funnel", "file", funnel, true, exact);
   EXPECT_EQ(s->kind, ShapeClass::mesh);
   EXPECT_NEAR(s->volume / exact, 1, 1e-12);
   EXPECT_LT(s->mesh_volume, 0.99 * exact);
