@@ -27,6 +27,9 @@ class Occupancy {
   /// Cells outside of the lattice's margin are not visited.
   template <class Visit>
   void for_each_hit_on_move(const Stamp& stamp, const Cell& at, int axis, int sign, const Visit& visit) const;
+  /// The same for every taken cell of a pellet that is not on the lattice.
+  template <class Visit>
+  void for_each_hit(const Stamp& stamp, const Cell& at, const Visit& visit) const;
   /// Number of its cells that are taken; those outside of the lattice count as one.
   std::int64_t shared(const Stamp& stamp, const Cell& at) const;
   /// Lays a pellet on free cells, or takes it off.
@@ -52,6 +55,17 @@ class Occupancy {
   std::int64_t open_ = 0;
   std::vector<std::uint64_t> bits_;  // (slices, words, rows), a margin of wall all round
 };
+
+template <class Visit>
+void Occupancy::for_each_hit(const Stamp& stamp, const Cell& at, const Visit& visit) const {
+  if (!inside(stamp, at)) return;
+  const Window w = window(stamp, at);
+  for (int z = 0; z < w.slices; ++z)
+    for (int x = 0; x < w.words; ++x)
+      for (int y = 0; y < w.rows; ++y)
+        for (std::uint64_t bits = window_word(w, x, y, z); bits; bits &= bits - 1)
+          visit(stamp.low[0] + 64 * x + std::countr_zero(bits), stamp.low[1] + y, stamp.low[2] + z);
+}
 
 template <class Visit>
 void Occupancy::for_each_hit_on_move(const Stamp& stamp, const Cell& at, int axis, int sign,

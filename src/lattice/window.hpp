@@ -35,4 +35,14 @@ void window_move(const Window& w, std::ptrdiff_t step);
 /// Or of the stamp into the lattice.
 void window_write(const Window& w);
 
+/// Bits of one word of the stamp that are set in the lattice.
+inline std::uint64_t window_word(const Window& w, int x, int y, int z) {
+  const std::uint64_t* low = w.lattice + static_cast<std::size_t>(z) * w.lattice_slice +
+                             static_cast<std::size_t>(x) * w.lattice_column + y;
+  const std::uint64_t stamp =
+      w.stamp[static_cast<std::size_t>(z) * w.stamp_slice + static_cast<std::size_t>(x) * w.stamp_column +
+              static_cast<std::size_t>(y)];
+  return ((*low >> w.shift) | ((low[w.lattice_column] << 1) << (63 - w.shift))) & stamp;
+}
+
 }  // namespace packbed

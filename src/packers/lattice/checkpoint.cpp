@@ -10,7 +10,7 @@ constexpr std::uint64_t kFormat = 0x706b6264'4c000001;  // changes with any chan
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>
 void visit(Archive& io, S& s) {
-  io(s.id), io(s.kind), io(s.scale), io(s.fixed), io(s.rotation), io(s.cell), io(s.phase);
+  io(s.id), io(s.kind), io(s.scale), io(s.fixed), io(s.rotation), io(s.cell), io(s.phase), io(s.guide);
   io(s.waiting);
   io(s.steps), io(s.mean_height), io(s.sinking), io(s.window_since), io(s.at_rest), io(s.waited);
   io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.tally);

@@ -49,6 +49,7 @@ bool lay(const Model& model, State& state, const Pellet& p, StampMaker& maker) {
     state.cell.push_back(to);
     state.phase.push_back(phase);
     state.stamp.push_back(std::move(stamp));
+    state.guide.emplace_back();
     return true;
   }
   return false;

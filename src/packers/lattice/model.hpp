@@ -25,6 +25,13 @@ struct Model {
   const PelletKind& kind(std::uint32_t k) const { return scene->pellets[k]; }
 };
 
+/// What a pellet of digicgp remembers of the collisions of its last step.
+struct Guide {
+  Vec3 chance = Vec3::Zero();  // of a move along x, y, z, with its direction: -1 to 1
+  Vec3 torque = Vec3::Zero();  // axis of the next rotation; zero: none
+  std::uint64_t free = 1;      // nothing stopped it
+};
+
 /// Moves tried and made since the start.
 struct Tally {
   double moves = 0, moved = 0, rotations = 0, rotated = 0;
@@ -48,6 +55,7 @@ struct State {
   std::vector<Cell> cell;   // that the centre of mass is in
   std::vector<Vec3> phase;  // of the centre of mass from the centre of that cell [cells]
   std::vector<Stamp> stamp;
+  std::vector<Guide> guide;     // digicgp
   std::vector<Pellet> waiting;  // fed, but there is no room for them yet
 
   std::int64_t steps = 0;

@@ -51,7 +51,8 @@ bool try_move(State& state, std::size_t i, int axis, int sign, Tally& tally) {
 }
 
 bool try_rotation(const Model& model, State& state, std::size_t i, const Vec3& axis, double angle,
-                  StampMaker& maker, Tally& tally) {
+                  StampMaker& maker, Tally& tally,
+                  const std::function<void(const Stamp&, const Vec3&)>& blocked) {
   const Shape& shape = *model.kind(state.kind[i]).shape;
   if (shape.kind == ShapeClass::sphere) return false;  // looks the same however it is turned
   ++tally.rotations;
@@ -68,6 +69,8 @@ bool try_rotation(const Model& model, State& state, std::size_t i, const Vec3& a
     state.rotation[i] = rotation;
     state.phase[i] = phase;
     ++tally.rotated;
+  } else if (blocked) {
+    blocked(stamp, phase);
   }
   state.lattice.flip(state.stamp[i], state.cell[i]);
   return free;

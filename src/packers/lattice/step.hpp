@@ -1,6 +1,7 @@
 #pragma once
 // The phases of a step, one file each.
 #include <array>
+#include <functional>
 #include <string_view>
 
 #include "math/random.hpp"
@@ -26,9 +27,11 @@ void move_digicgp(const Model& model, State& state, std::size_t i, StampMaker& m
 
 /// Moves a pellet by one cell unless it would share a cell then.
 bool try_move(State& state, std::size_t i, int axis, int sign, Tally& tally);
-/// Rotates a pellet about an axis through its centre of mass unless it would share a cell then.
+/// Rotates a pellet about an axis through its centre of mass unless it would share a cell then; `blocked`,
+/// when given, sees what did not fit while the pellet itself is off the lattice.
 bool try_rotation(const Model& model, State& state, std::size_t i, const Vec3& axis, double angle,
-                  StampMaker& maker, Tally& tally);
+                  StampMaker& maker, Tally& tally,
+                  const std::function<void(const Stamp& tried, const Vec3& phase)>& blocked = {});
 /// Its random numbers of this step.
 Random numbers_of(const Model& model, const State& state, std::size_t i);
 
