@@ -62,7 +62,7 @@ struct Stepping {
   double skin = 0;    // of the neighbour list [m]; 0: found from the pellet size
   bool sleep = true;  // let settled pellets stand still until something moves them
   double sleep_displacement =
-      1e-4;                  // drift over the watch time below which a pellet may sleep, fraction of its size
+      1e-3;                  // drift over the watch time below which a pellet may sleep, fraction of its size
   double rest_speed = 1e-3;  // mean kinetic speed under which a bed may be called at rest [m/s]
   double rest_force = 1e-2;  // largest mean unbalanced force, fraction of the weight
   double rest_drift = 1e-2;  // largest displacement over rest_window, fraction of the pellet size

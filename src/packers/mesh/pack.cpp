@@ -1,4 +1,5 @@
 // The run of the mesh packer: steps until the bed is at rest, and reports on the way.
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <chrono>
@@ -34,6 +35,19 @@ std::int64_t peak_rss_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+/// "settling", and what is still too large for rest.
+std::string settling(const Model& model, const State& state) {
+  const Stepping& limit = model.stepping;
+  std::string text = state.last_watch ? "watching" : "settling";
+  const auto name = [&](const char* what, double value, double most) {
+    if (value > most) text += fmt::format(", {} {:.2g} (limit {:.2g})", what, value, most);
+  };
+  name("speed m/s", state.rest_speed, limit.rest_speed);
+  name("force", state.rest_force, limit.rest_force);
+  name("drift", state.rest_drift, limit.rest_drift);
+  return text;
 }
 
 bool finished(const Model& model, const State& state, const Feeder& feeder) {
@@ -82,7 +96,7 @@ class Watcher {
     p.simulated_s = state.time;
     p.fed = feeder.fed();
     p.asked = feeder.asked();
-    p.phase = feeder.done() ? "settling" : feeder.waiting() ? "waiting for room" : "feeding";
+    p.phase = feeder.done() ? settling(model, state) : feeder.waiting() ? "waiting for room" : "feeding";
     // the bed grows as it is fed, and so does the price of a step: work goes like the square of the time
     const double x = model.expected_time > 0 ? std::min(1.0, state.time / model.expected_time) : 0.0;
     p.fraction = x * x;

@@ -32,12 +32,12 @@ void rest(const Model& model, State& state, const Feeder& feeder) {
                   state.rest_force <= model.stepping.rest_force &&
                   state.rest_drift <= model.stepping.rest_drift;
   state.rest_since = state.time;
-  // rest found with sleepers is not yet rest: all wake, and the same questions are asked again
-  if (state.at_rest && model.stepping.sleep && !state.last_watch) {
-    state.last_watch = 1;
-    state.at_rest = 0;
-    wake_all(state);
-  }
+  // rest found with sleepers is not yet rest: all wake, and the same questions are asked again over one window
+  const bool watched = state.last_watch;
+  state.last_watch = state.at_rest && model.stepping.sleep && !watched;
+  if (!state.last_watch) return;
+  state.at_rest = 0;
+  wake_all(state);
 }
 
 }  // namespace packbed::mesh
