@@ -3,9 +3,9 @@
 namespace packbed {
 namespace {
 
-// Of the dashpot that acts against rocking. All of it would hold a toppling cylinder back by its rim; a tenth
-// still ends the rocking of a flat touch within some ten periods.
-constexpr double kRockingShare = 0.1;
+// Of the dashpot that acts against rocking. All of it would hold a toppling cylinder back by its rim; a third
+// still ends the rocking of a flat touch within a few periods.
+constexpr double kRockingShare = 0.3;
 
 /// Keeps the stretch in the tangent plane as the normal turns, without changing its length.
 void follow_normal(Vec3& stretch, const Vec3& normal) {

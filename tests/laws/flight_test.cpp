@@ -168,8 +168,7 @@ TEST(Axes, MayBePermuted) {
                turned = run(collision(turn), 0.01, 0.0005);
   ASSERT_EQ(plain.frames.size(), turned.frames.size());
   const double steps = static_cast<double>(plain.result.record.time.steps);
-  const double rounding =
-      1e-8 * steps;  // an edge touch magnifies rounding: 3e-9 a step was measured for the spin
+  const double rounding = 1e-12 * steps;
   for (std::size_t f = 0; f < plain.frames.size(); ++f)
     for (std::size_t i = 0; i < 2; ++i) {
       const Pellet &a = plain.frames[f].pellets[i], &b = turned.frames[f].pellets[i];
@@ -195,7 +194,7 @@ TEST(Units, MayBeScaled) {
   }
   const Course a = run(small, 0.01, 0.0005), b = run(large, 0.01, 0.0005);
   ASSERT_EQ(a.result.record.time.steps, b.result.record.time.steps);
-  const double allowed = 1e-8 * static_cast<double>(a.result.record.time.steps);
+  const double allowed = 1e-9 * static_cast<double>(a.result.record.time.steps);
   for (std::size_t f = 0; f < a.frames.size(); ++f)
     for (std::size_t i = 0; i < 2; ++i) {
       const Pellet &p = a.frames[f].pellets[i], &q = b.frames[f].pellets[i];

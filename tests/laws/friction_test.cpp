@@ -42,7 +42,7 @@ double slip(double angle, double mu, double duration) {
 
 TEST(Incline, HoldsBelowTheFrictionAngleWithoutCreep) {
   for (const double mu : {0.2, 0.5}) {
-    const double creep = slip(std::atan(mu) - radians(1), mu, 2);
+    const double creep = slip(std::atan(mu) - radians(0.1), mu, 2);
     EXPECT_LT(std::abs(creep), 1e-4 * kDiameter) << mu;  // within a second
   }
 }
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Rolling,
 
 /// Angle between the axis and the floor's normal after half a second on an incline [degrees]; falls over or
 /// not.
-constexpr double kTopplingMargin = 10;  // degrees
+constexpr double kTopplingMargin = 5;  // degrees
 
 struct Stand {
   double lean, slid;
@@ -141,7 +141,7 @@ Stand stand(double angle, double mu, double slenderness) {
 TEST(StandingCylinder, TopplesAboveDOverLWhereFrictionHolds) {
   for (const double slenderness : {1.0, 2.0}) {
     const double limit = std::atan(1 / slenderness);
-    EXPECT_LT(stand(limit - radians(kTopplingMargin), 1.3, slenderness).lean, 1) << slenderness;
+    EXPECT_LT(stand(limit - radians(kTopplingMargin), 1.3, slenderness).lean, 5) << slenderness;
     EXPECT_GT(stand(limit + radians(kTopplingMargin), 1.3, slenderness).lean, 10) << slenderness;
   }
 }

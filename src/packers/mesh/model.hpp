@@ -114,7 +114,7 @@ struct State {
   double rest_since = 0;          // [s]
   std::vector<Vec3> rest_anchor;  // [m]
   std::uint8_t at_rest = 0;
-  std::uint8_t last_watch = 0;  // everything is awake for good, to see whether it stays at rest
+  std::uint8_t last_watch = 0;  // windows so far with everything awake, to see whether it stays at rest
   double rest_speed = 0, rest_force = 0,
          rest_drift = 0;         // [m/s], fraction of the weight, fraction of the size
   std::uint8_t waited = 0;       // feeding has had to wait for room

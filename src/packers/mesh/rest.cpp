@@ -6,6 +6,12 @@
 #include "packers/mesh/step.hpp"
 
 namespace packbed::mesh {
+namespace {
+
+// Windows that a bed in which all are awake is given to come to rest.
+constexpr std::uint8_t kWatchedWindows = 5;
+
+}  // namespace
 
 void rest(const Model& model, State& state, const Feeder& feeder) {
   if (!feeder.done() || state.time - state.rest_since < model.stepping.rest_window) return;
@@ -32,12 +38,17 @@ void rest(const Model& model, State& state, const Feeder& feeder) {
                   state.rest_force <= model.stepping.rest_force &&
                   state.rest_drift <= model.stepping.rest_drift;
   state.rest_since = state.time;
-  // rest found with sleepers is not yet rest: all wake, and the same questions are asked again over one window
-  const bool watched = state.last_watch;
-  state.last_watch = state.at_rest && model.stepping.sleep && !watched;
-  if (!state.last_watch) return;
-  state.at_rest = 0;
-  wake_all(state);
+  if (!model.stepping.sleep) return;
+  // rest found with sleepers is not yet rest: all wake, and the same questions are asked again over the next
+  // windows; if one pellet rolls on through all of them, the others may sleep again
+  if (state.last_watch == 0 && state.at_rest) {
+    state.last_watch = 1;
+    state.at_rest = 0;
+    wake_all(state);
+  } else if (state.last_watch > 0 && !state.at_rest) {
+    state.last_watch = state.last_watch < kWatchedWindows ? static_cast<std::uint8_t>(state.last_watch + 1)
+                                                          : std::uint8_t{0};
+  }
 }
 
 }  // namespace packbed::mesh
