@@ -14,7 +14,7 @@ constexpr int kSamples =
     16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
 constexpr double kStep = 2.0 * kPi / kSamples;
 // Half width [rad] under which the ends of an arc come from the Taylor series at its peak: right to a few
-// thousandths of the arc, where d^8 has long vanished.
+// thousandths of the arc, where d^16 has long vanished.
 constexpr double kNarrow = 0.2;
 // Newton's step towards a maximum that is the last one taken [rad].
 constexpr double kPeakTolerance = 0.05;
@@ -250,8 +250,8 @@ PACKBED_WIDE void sum_arc(const TrigQuadratic& f, const Arc& arc, ArcSums& out) 
     double s, c;
     sincos_poly(middle + half * kArcNode[i], s, c);
     const double d = std::max(0.0, f.k0 + c * (f.k1 + f.k3 * c + f.k4 * s) + f.k2 * s);
-    const double d2 = d * d, d4 = d2 * d2, r = 8.0 * d4 * d2 * d;
-    t.term[0][i] = d4 * d4;
+    const double r = depth_power_slope<kCurveExponent>(d);
+    t.term[0][i] = depth_power<kCurveExponent>(d);
     t.term[1][i] = r;
     t.term[2][i] = r * c;
     t.term[3][i] = r * s;

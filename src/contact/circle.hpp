@@ -67,7 +67,7 @@ struct PeakList {
 /// All peaks above zero; two that no valley below zero parts are one.
 PeakList positive_peaks(const TrigQuadratic& f);
 /// Step of Newton's method, fraction of the half arc, after which the end of an arc is good enough: for a sum
-/// of d^8 that does not reach 1e-8 of its size in the last twentieth of the arc; for an arc that is to be
+/// of d^16 that does not reach 1e-16 of its size in the last twentieth of the arc; for an arc that is to be
 /// cut.
 inline constexpr double kWholeArc = 0.05, kCutArc = 1e-4;
 /// The arc round a peak on which f > 0, its ends to the tolerance.
@@ -75,9 +75,9 @@ Arc arc_round(const TrigQuadratic& f, const Peak& peak, double tolerance);
 /// Arcs that belong to both lists; ends keep the names that they have there.
 ArcList intersection(const ArcList& a, const ArcList& b);
 
-/// Number of evenly spaced nodes on an arc against a wall, where the depth is smooth: d^8 and its first seven
-/// derivatives vanish at both ends, and on a full turn it is periodic: there is no better rule for either, it
-/// does not care where exactly the ends are, and so neither does the gradient.
+/// Number of evenly spaced nodes on an arc against a wall, where the depth is smooth: d^16 and its first
+/// fifteen derivatives vanish at both ends, and on a full turn it is periodic: there is no better rule for
+/// either, it does not care where exactly the ends are, and so neither does the gradient.
 inline constexpr int kArcNodes = 16;
 inline constexpr std::array<double, kArcNodes> kArcNode = [] {
   std::array<double, kArcNodes> node{};
@@ -105,7 +105,8 @@ struct ArcTerms {
   }
 };
 
-/// Sums of d^8 and of its slope 8 d^7 with the cosine and sine of the angle, times the angle between nodes.
+/// Sums of d^16 and of its slope 16 d^15 with the cosine and sine of the angle, times the angle between
+/// nodes.
 struct ArcSums {
   double power = 0, rate = 0, rate_c = 0, rate_s = 0, rate_cc = 0, rate_cs = 0;
   double deepest = 0;

@@ -190,7 +190,7 @@ void find_arcs(Finding& found, std::uint8_t circle, const Feature& f, const Vec3
 
 /// The sides of two crossed cylinders, at the common perpendicular of their axes. Closed form; s and t are
 /// its feet on the axes. Gives the way to go before they can touch there; negative when they do.
-double add_crossing(TouchSum& sum, const Rod& a, const Rod& b, double reference) {
+double add_crossing(TouchSum<kCurveExponent>& sum, const Rod& a, const Rod& b, double reference) {
   const Vec3 w = b.centre - a.centre;
   const double c = a.axis.dot(b.axis), sine2 = 1.0 - c * c;
   if (sine2 < 1e-8) return 0;
@@ -210,8 +210,9 @@ double add_crossing(TouchSum& sum, const Rod& a, const Rod& b, double reference)
   // weight: fades for parallel axes, where rims and rings carry, and towards the ends, where a rim takes over
   const double parallel2 = kParallel * kParallel, fade = sine2 / (sine2 + parallel2);
   const double share_a = 2.0 * end_a / a.half_height, share_b = 2.0 * end_b / b.half_height;
-  const double length = kSideLength * reference * fade * share_a * share_b, power = length * depth_power(d);
-  const double rate = length * depth_power_slope(d);
+  const double length = kSideLength * reference * fade * share_a * share_b,
+               power = length * depth_power<kCurveExponent>(d);
+  const double rate = length * depth_power_slope<kCurveExponent>(d);
   const double by_lateral = rate * (1.0 - lateral / norm), by_end = rate * (1.0 - end / norm);
   const double by_s = -(by_end * (1.0 - end_a / ends) + power / end_a) * s / a.half_height;
   const double by_t = -(by_end * (1.0 - end_b / ends) + power / end_b) * t / b.half_height;
@@ -252,7 +253,8 @@ void set_lane(RodArcBatch& batch, int k, const RodArc& arc, const Rod& a, const 
 }
 
 /// Adds what a lane has found, seen from the origin of the pair.
-void add_lane(TouchSum& sum, const RodArcBatch& batch, int k, const RodArc& arc, const Rod& a, const Rod& b) {
+void add_lane(TouchSum<kCurveExponent>& sum, const RodArcBatch& batch, int k, const RodArc& arc, const Rod& a,
+              const Rod& b) {
   const auto get = [k](const LaneVec& lanes) { return Vec3(lanes.x[k], lanes.y[k], lanes.z[k]); };
   const Vec3& centre = arc.circle < 6 ? b.centre : a.centre;
   const double sign = arc.circle < 6 ? 1.0 : -1.0;
@@ -392,7 +394,7 @@ void RodLooks::evaluate() {
 Touch RodLooks::result(int i, bool& lost) const {
   const Entry& e = pair_[static_cast<std::size_t>(i)];
   RodFeatures& features = *e.features;
-  TouchSum sum(e.origin);
+  TouchSum<kCurveExponent> sum(e.origin);
   for (std::size_t k = 0; k < features.arcs; ++k) {
     const int lane = e.lane + static_cast<int>(k);
     const RodArcBatch& batch = batch_[static_cast<std::size_t>(lane / kLanes)];

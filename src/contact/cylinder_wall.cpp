@@ -14,7 +14,8 @@ Circle rim_of(const Rod& rod, double side) {
   return circle;
 }
 
-void add_floor_arc(TouchSum& sum, const Circle& rim, const TrigQuadratic& depth, const Arc& arc) {
+void add_floor_arc(TouchSum<kCurveExponent>& sum, const Circle& rim, const TrigQuadratic& depth,
+                   const Arc& arc) {
   ArcSums t;
   sum_arc(depth, arc, t);
   const Pressure pressure = pressure_of(rim, t);
@@ -23,8 +24,8 @@ void add_floor_arc(TouchSum& sum, const Circle& rim, const TrigQuadratic& depth,
 }
 
 /// The slope of the depth at x is the level part of (x - axis of the tube) / its radius.
-void add_tube_arc(TouchSum& sum, const Circle& rim, const TrigQuadratic& depth, const Arc& arc,
-                  const Vec3& centre, double tube) {
+void add_tube_arc(TouchSum<kCurveExponent>& sum, const Circle& rim, const TrigQuadratic& depth,
+                  const Arc& arc, const Vec3& centre, double tube) {
   ArcSums t;
   sum_arc(depth, arc, t);
   const Pressure p = pressure_of(rim, t);
@@ -49,7 +50,7 @@ TrigQuadratic depth_in_tube(const Circle& rim, const Vec3& flat, double tube) {
 }  // namespace
 
 Touch touch_floor(const Rod& rod, double& gap) {
-  TouchSum sum(rod.centre);
+  TouchSum<kCurveExponent> sum(rod.centre);
   gap = 1e300;
   for (const double side : {-1.0, 1.0}) {
     const Circle rim = rim_of(rod, side);
@@ -68,7 +69,7 @@ Touch touch_floor(const Rod& rod, double& gap) {
 }
 
 Touch touch_tube(const Rod& rod, double tube, double& gap) {
-  TouchSum sum(rod.centre);
+  TouchSum<kCurveExponent> sum(rod.centre);
   const Vec3 centre(rod.centre.x(), rod.centre.y(), 0);
   gap = 1e300;
   for (const double side : {-1.0, 1.0}) {

@@ -10,6 +10,10 @@
 #include "math/error.hpp"
 #include "math/simd.hpp"
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are only passed between functions that are inlined
+#endif
+
 namespace packbed {
 namespace {
 
@@ -44,7 +48,7 @@ struct Batch {
 };
 
 /// Sums over points in the frame of the field: four partial sums each, added at the end, so that any width of
-/// vector gives the same bits. rate = w 8 d^7.
+/// vector gives the same bits. rate = w p d^(p - 1).
 struct Sums {
   v4d power{}, rate{}, fx{}, fy{}, fz{}, tx{}, ty{}, tz{}, px{}, py{}, pz{}, xx{}, yy{}, zz{}, xy{}, yz{},
       zx{};
@@ -63,9 +67,9 @@ PACKBED_WIDE void add_batch(const Batch& b, Sums& s) {
     std::memcpy(&gx, b.gx + i, sizeof gx);
     std::memcpy(&gy, b.gy + i, sizeof gy);
     std::memcpy(&gz, b.gz + i, sizeof gz);
-    const v4d d2 = d * d, d4 = d2 * d2, rate = 8.0 * w * (d4 * d2 * d);
+    const v4d rate = w * depth_power_slope<kPointExponent>(d);
     const v4d fx = rate * gx, fy = rate * gy, fz = rate * gz;
-    s.power += w * (d4 * d4);
+    s.power += w * depth_power<kPointExponent>(d);
     s.rate += rate;
     s.fx += fx;
     s.fy += fy;
@@ -173,23 +177,25 @@ Vec3 total(const v4d& x, const v4d& y, const v4d& z) {
 
 /// From the frame of the field (turned by `turn`, at `centre` from the origin of `out`) to the world. `sign`:
 /// +1 when the points are a's, -1 when the field is.
-void add_to(TouchSum& out, const Sums& s, const Quat& rotation, const Vec3& centre, double field_scale,
-            double point_scale, double sign) {
+void add_to(TouchSum<kPointExponent>& out, const Sums& s, const Quat& rotation, const Vec3& centre,
+            double field_scale, double point_scale, double sign) {
   // weights are lengths of the points' body, depths and places lengths of the field's
   const Mat3 turn = rotation.toRotationMatrix();
-  const double s2 = field_scale * field_scale, s4 = s2 * s2, s7 = s4 * s2 * field_scale;
-  const double rate = point_scale * s7 * total(s.rate);
-  const Vec3 force = point_scale * s7 * (turn * total(s.fx, s.fy, s.fz));
-  const Vec3 turning = point_scale * s7 * field_scale * (turn * total(s.tx, s.ty, s.tz));
-  const Vec3 place = point_scale * s7 * field_scale * (turn * total(s.px, s.py, s.pz));
+  const double s2 = field_scale * field_scale,
+               slope = depth_power_slope<kPointExponent>(field_scale) / kPointExponent;
+  const double rate = point_scale * slope * total(s.rate);
+  const Vec3 force = point_scale * slope * (turn * total(s.fx, s.fy, s.fz));
+  const Vec3 turning = point_scale * slope * field_scale * (turn * total(s.tx, s.ty, s.tz));
+  const Vec3 place = point_scale * slope * field_scale * (turn * total(s.px, s.py, s.pz));
   const Vec3 square = total(s.xx, s.yy, s.zz), mixed = total(s.xy, s.yz, s.zx);
   Mat3 own;
   own << square.x(), mixed.x(), mixed.z(), mixed.x(), square.y(), mixed.y(), mixed.z(), mixed.y(), square.z();
   const Mat3 shifted = centre * place.transpose();
-  const Mat3 second = point_scale * s7 * s2 * (turn * own * turn.transpose()) + shifted +
+  const Mat3 second = point_scale * slope * s2 * (turn * own * turn.transpose()) + shifted +
                       shifted.transpose() + rate * centre * centre.transpose();
-  out.add_sums(point_scale * s4 * s4 * total(s.power), sign * force, sign * (turning + centre.cross(force)),
-               {rate, place + rate * centre, second}, field_scale * s.deepest);
+  out.add_sums(point_scale * depth_power<kPointExponent>(field_scale) * total(s.power), sign * force,
+               sign * (turning + centre.cross(force)), {rate, place + rate * centre, second},
+               field_scale * s.deepest);
 }
 
 }  // namespace
@@ -235,7 +241,7 @@ Touch touch_field(const FieldPellet& a, const FieldPellet& b, double* gap) {
   const double clear_b = find_clusters(b, a.body->field, a.scale, reach_in_a);
   if (gap) *gap = std::max(*gap, std::min(clear_a, clear_b));
   const Vec3 origin = b.pose.position + 0.5 * apart;
-  TouchSum sum(origin);
+  TouchSum<kPointExponent> sum(origin);
   if (reach_in_b.count > 0)
     add_to(sum, sum_clusters(a, b.body->field, reach_in_b), b.pose.rotation, b.pose.position - origin,
            b.scale, a.scale, 1);
@@ -272,7 +278,7 @@ Touch touch_container(const FieldPellet& a, const FieldWall& wall, double* gap) 
   const double clear = find_clusters(a, wall.field, 1, reach);
   if (gap) *gap = clear;
   if (reach.count == 0) return {};
-  TouchSum sum(a.pose.position);
+  TouchSum<kPointExponent> sum(a.pose.position);
   add_to(sum, sum_clusters(a, wall.field, reach), still.rotation, -a.pose.position, 1, a.scale, 1);
   return sum.finish(2 * kPi * a.body->size * a.scale, Vec3::Zero(), -a.pose.position);
 }

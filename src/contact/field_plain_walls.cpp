@@ -12,7 +12,7 @@ namespace {
 template <class Depth, class Outside>
 Touch touch_points(const FieldPellet& a, const Depth& depth, const Outside& outside) {
   const SurfacePoints& p = a.body->points;
-  TouchSum sum(a.pose.position);
+  TouchSum<kPointExponent> sum(a.pose.position);
   for (std::size_t c = 0; c < p.clusters(); ++c) {
     const Vec3 centre = a.pose.to_world(a.scale * Vec3(p.cluster_x[c], p.cluster_y[c], p.cluster_z[c]));
     if (outside(centre) >= a.scale * p.cluster_radius[c]) continue;

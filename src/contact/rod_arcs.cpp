@@ -162,9 +162,9 @@ PACKBED_WIDE void follow(RodArcBatch& b) {
     const Lanes in_side = positive(0.5 * per_radius * t.side()),
                 in_cap = positive(0.5 * per_height * t.cap());
     const Lanes norm = root_of(in_side * in_side + in_cap * in_cap) + 1e-300, per_norm = 1.0 / norm;
-    const Lanes d = positive(in_side + in_cap - norm), d2 = d * d, d4 = d2 * d2;
+    const Lanes d = positive(in_side + in_cap - norm);
     const Lanes slope_side = 1.0 - in_side * per_norm, slope_cap = 1.0 - in_cap * per_norm;
-    const Lanes p = w * d4 * d4, r = 8.0 * w * d4 * d2 * d;
+    const Lanes p = w * depth_power<kCurveExponent>(d), r = w * depth_power_slope<kCurveExponent>(d);
     const Lanes r_side = r * slope_side * per_radius, r_cap = r * slope_cap * per_height;
     const Lanes along = 0.5 * (r_side * t.side_dot() + r_cap * t.cap_dot()) * length;
     const Lanes r_axial = (r_side - r_cap) * t.z;

@@ -39,9 +39,9 @@ struct RodArcBatch {
   Lanes part{}, span{};  // the part of the arc that is summed: from `part`, fraction `span` of it
   Lanes full{};
   // out; `from` and `to` have moved
-  Lanes power{};          // sum of w d^8 [m9]
+  Lanes power{};          // sum of w d^p [m^(p + 1)]
   LaneVec force, torque;  // sum of rate * slope; of x cross that
-  Lanes pressure{};       // sum of the rate w 8 d^7
+  Lanes pressure{};       // sum of the rate w p d^(p - 1)
   LaneVec pressure_x;
   Lanes xx{}, yy{}, zz{}, xy{}, xz{}, yz{};  // sum of rate x x^T
   Lanes deepest{};

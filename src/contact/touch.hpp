@@ -19,18 +19,38 @@
 
 namespace packbed {
 
-/// The exponent p. Larger: stiffness more even between a flat and an edge touch (factor (L / l)^(2/p) for a
-/// patch of length l), but the force follows the deepest point more sharply and the quadrature needs more
-/// nodes. 8 = three squarings.
-inline constexpr int kDepthExponent = 8;
-inline double depth_power(double d) {
-  const double d2 = d * d, d4 = d2 * d2;
-  return d4 * d4;
+// The exponent p. Larger: stiffness more even between a flat and an edge touch (factor (L / l)^(2/p) for a
+// patch of length l), but the force follows the deepest point more sharply, and a flat touch is (p - 1) / 2
+// times stiffer against rocking than against a push.
+/// Of kernels that integrate along curves.
+inline constexpr int kCurveExponent = 16;
+/// Of kernels that add up points: a larger one would feel each of them.
+inline constexpr int kPointExponent = 8;
+
+// Real: double, or a vector of doubles of the compiler's.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are only passed between functions that are inlined
+#endif
+/// d^p
+template <int kExponent, class Real>
+inline __attribute__((always_inline)) Real depth_power(const Real& d) {
+  const Real d2 = d * d, d4 = d2 * d2, d8 = d4 * d4;
+  if constexpr (kExponent == 16) return d8 * d8;
+  static_assert(kExponent == 8 || kExponent == 16);
+  return d8;
 }
-inline double depth_power_slope(double d) {  // of depth_power
-  const double d2 = d * d, d4 = d2 * d2;
-  return 8.0 * d4 * d2 * d;
+/// p d^(p - 1)
+template <int kExponent, class Real>
+inline __attribute__((always_inline)) Real depth_power_slope(const Real& d) {
+  const Real d2 = d * d, d4 = d2 * d2, d7 = d4 * d2 * d;
+  if constexpr (kExponent == 16) return 16.0 * (d4 * d4) * d7;
+  static_assert(kExponent == 8 || kExponent == 16);
+  return 8.0 * d7;
 }
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 /// What a kernel says of two bodies. Gradients are per unit of k delta: force on a = k delta gradient, and
 /// minus that on b.
@@ -45,7 +65,7 @@ struct Touch {
   double depth = 0;  // greatest distance of any feature point from the surface that it dips through [m]
 };
 
-/// Sum of the rates w 8 d^7 of points x, of rate x, and of rate x x^T.
+/// Sum of the rates w p d^(p - 1) of points x, of rate x, and of rate x x^T.
 struct Pressure {
   double total = 0;
   Vec3 x = Vec3::Zero();
@@ -54,6 +74,7 @@ struct Pressure {
 
 /// Gathers weighted depths into a Touch. Works about an origin near both bodies so that torques lose no
 /// digits.
+template <int kExponent>
 class TouchSum {
  public:
   explicit TouchSum(const Vec3& origin) : origin_(origin) {}
@@ -61,7 +82,7 @@ class TouchSum {
   /// A point x (relative to the origin) of depth d and weight w; `slope` is d depth / d x of a's point in b
   /// (or minus that of b's in a): moving a by dx changes the depth by slope . dx.
   void add(const Vec3& x, double d, double w, const Vec3& slope) {
-    const double power = w * depth_power(d), rate = w * depth_power_slope(d);
+    const double power = w * depth_power<kExponent>(d), rate = w * depth_power_slope<kExponent>(d);
     sum_ += power;
     force_ -= rate * slope;
     torque_ -= rate * x.cross(slope);
@@ -70,7 +91,7 @@ class TouchSum {
     pressure_ += rate;
     if (d > depth_) depth_ = d;
   }
-  /// Sums that a kernel has made itself: of w d^8, of rate * slope and its torque, of the pressure.
+  /// Sums that a kernel has made itself: of w d^p, of rate * slope and its torque, of the pressure.
   void add_sums(double power, const Vec3& rate_slope, const Vec3& torque, const Pressure& pressure,
                 double deepest) {
     sum_ += power;
@@ -88,8 +109,9 @@ class TouchSum {
     Touch touch;
     if (empty()) return touch;
     touch.delta = std::sqrt(std::sqrt(std::sqrt(sum_ / reference)));  // the 1/8-th power
+    if constexpr (kExponent == 16) touch.delta = std::sqrt(touch.delta);
     // d delta = d sum / (p sum) delta
-    const double factor = touch.delta / (kDepthExponent * sum_);
+    const double factor = touch.delta / (kExponent * sum_);
     touch.gradient = factor * force_;
     const Vec3 torque = factor * torque_;
     touch.torque_a = torque - centre_a.cross(touch.gradient);

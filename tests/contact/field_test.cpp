@@ -221,7 +221,8 @@ TEST(FieldKernel, SphereOnSphereIsTheIntegralOfTheLaw) {
     const double angle = 0.5 * (i + 0.5) / n;  // from the line of centres; farther points are outside
     const double distance2 = r * r + gap * gap - 2 * r * gap * std::cos(angle);
     const double depth = std::max(0.0, (r * r - distance2) / (2 * r));
-    sum += 2 * kPi * r * r * std::sin(angle) * (0.5 / n) * (1 + 2 * kCurved) / r * depth_power(depth);
+    sum += 2 * kPi * r * r * std::sin(angle) * (0.5 / n) * (1 + 2 * kCurved) / r *
+           depth_power<kPointExponent>(depth);
   }
   const double delta = std::pow(2 * sum / (2 * kPi * r), 0.125);
   FieldOptions fine;

@@ -55,9 +55,9 @@ void audit_rest(RunRecord& record, const Model& model, const State& state) {
   add_line(record, "rest", record.at_rest,
            fmt::format("speed {:.2g} m/s (limit {:.2g}), unbalanced force {:.2g} of the weight ({:.2g}), "
                        "drift {:.2g} of the size in "
-                       "{:.2g} s ({:.2g})",
+                       "{:.2g} s ({:.2g}), {} still roll",
                        state.rest_speed, s.rest_speed, state.rest_force, s.rest_force, state.rest_drift,
-                       s.rest_window, s.rest_drift));
+                       s.rest_window, s.rest_drift, state.rollers));
 }
 
 void audit_impacts(RunRecord& record, const State& state) {

@@ -8,7 +8,7 @@
 namespace packbed::mesh {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'00000002;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'00000003;  // changes with any change of State
 
 class Writer {
  public:
@@ -77,7 +77,7 @@ void visit(Archive& io, S& s) {
   io(s.awake), io(s.next_landing), io(s.search_due);
   io(s.rest_since), io(s.rest_anchor), io(s.at_rest), io(s.last_watch), io(s.rest_speed), io(s.rest_force),
       io(s.rest_drift);
-  io(s.waited), io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.ledger);
+  io(s.rollers), io(s.waited), io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.ledger);
 }
 
 }  // namespace

@@ -117,6 +117,7 @@ struct State {
   std::uint8_t last_watch = 0;  // windows so far with everything awake, to see whether it stays at rest
   double rest_speed = 0, rest_force = 0,
          rest_drift = 0;         // [m/s], fraction of the weight, fraction of the size
+  std::int32_t rollers = 0;      // pellets that drifted by more than the limit over the last window
   std::uint8_t waited = 0;       // feeding has had to wait for room
   std::int64_t snapshots = 0;    // taken so far
   double wall_s = 0, cpu_s = 0;  // spent before the last checkpoint
