@@ -19,16 +19,10 @@
 namespace packbed::cli {
 namespace {
 
-bool is_grid(const std::string& input) {
-  if (!std::filesystem::is_directory(input)) return is_grid_file(input);
-  const ResultFolder folder{input};
-  return !folder.has(result_file::kBed) && folder.has(result_file::kVoxels);
-}
-
 AnalysisResult analyse_one(const AnalyseOptions& options) {
   AnalysisWish wish;
   wish.voxel = parse_quantity(options.pitch, Dimension::length, "--pitch");
-  if (!is_grid(options.input)) return analyse_bed(read_bed(options.input), wish);
+  if (!holds_grid(options.input)) return analyse_bed(read_bed(options.input), wish);
   const GridFile file = read_grid(options.input);
   wish.diameter = file.note.diameter;
   const double radius = options.container_diameter.empty()

@@ -43,6 +43,26 @@ struct CheckOptions {
 };
 int check(const CheckOptions&);
 
+struct CompareOptions {
+  std::vector<std::string> inputs;  // result folders, bed.h5, voxels.h5; with ladder: one case
+  std::string out = "comparison", pitch = "0.1 mm";
+  double from = 3, to = 17;  // middle section [dp]
+  bool ladder = false, quiet = false;
+  std::vector<std::string> methods{"digipac", "digicgp", "digidem", "mesh"};
+  std::vector<std::string> sets;  // key=value, of the ladder's case
+  std::optional<unsigned long long> seed;
+  int threads = 0;
+};
+int compare(const CompareOptions&);
+
+struct HandoverOptions {
+  std::string bed, to = "mesh", out = "handover";
+  std::vector<std::string> sets;
+  bool quiet = false, force = false;
+  int threads = 0;
+};
+int handover(const HandoverOptions&);
+
 struct ExportOptions {
   std::string bed, to = "vtu", out;
 };

@@ -87,6 +87,45 @@ void add_export(CLI::App& app, int& code) {
   c->callback([o, &code] { code = export_bed(*o); });
 }
 
+void add_compare(CLI::App& app, int& code) {
+  auto o = std::make_shared<CompareOptions>();
+  CLI::App* c = app.add_subcommand(
+      "compare", "beds and grids side by side: densities, curves, orientations, time, memory");
+  c->add_option("inputs", o->inputs, "result folders, bed.h5 or voxels.h5; with --ladder one case file")
+      ->required();
+  c->add_option("--out", o->out, "folder for tables, curves and the page (default: comparison)");
+  c->add_option("--pitch", o->pitch, "edge of a voxel for beds, e.g. \"0.1 mm\"");
+  c->add_option("--from", o->from, "lower end of the middle section, in pellet diameters");
+  c->add_option("--to", o->to, "upper end of the middle section, in pellet diameters");
+  c->add_flag("--ladder", o->ladder, "pack the case by each of --methods first, unless that has been done");
+  c->add_option("--methods", o->methods, "of the ladder (default: digipac,digicgp,digidem,mesh)")
+      ->delimiter(',');
+  c->add_option("--set", o->sets, "change a key of the ladder's case")->take_all();
+  c->add_option("--seed", o->seed, "of the ladder");
+  c->add_option("--threads", o->threads, "threads");
+  c->add_flag("--quiet", o->quiet, "no progress");
+  c->footer(
+      "Examples:\n  packbed compare results/a results/b\n  packbed compare --ladder cases/quick.toml --out "
+      "results/ladder");
+  c->callback([o, &code] { code = compare(*o); });
+}
+
+void add_handover(CLI::App& app, int& code) {
+  auto o = std::make_shared<HandoverOptions>();
+  CLI::App* c =
+      app.add_subcommand("handover", "start a run of another method from a bed, and compare the two");
+  c->add_option("bed", o->bed, "bed.h5 or result folder")->required();
+  c->add_option("--to", o->to, "method (default: mesh)")
+      ->check(CLI::IsMember({"mesh", "digipac", "digicgp", "digidem"}));
+  c->add_option("--out", o->out, "folder for the runs and their comparison (default: handover)");
+  c->add_option("--set", o->sets, "change a key of the bed's case")->take_all();
+  c->add_option("--threads", o->threads, "threads");
+  c->add_flag("--quiet", o->quiet, "no progress");
+  c->add_flag("--force", o->force, "overwrite earlier results");
+  c->footer("Example:\n  packbed handover results/table1_digipac --to mesh --out results/polished");
+  c->callback([o, &code] { code = handover(*o); });
+}
+
 }  // namespace
 }  // namespace packbed::cli
 
@@ -103,6 +142,8 @@ int main(int argc, char** argv) {
   cli::add_analyse(app, code);
   cli::add_check(app, code);
   cli::add_export(app, code);
+  cli::add_compare(app, code);
+  cli::add_handover(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

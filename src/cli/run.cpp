@@ -30,7 +30,8 @@ PackResult pack(const Scene& scene, const Watch& watch, std::span<const std::byt
   if (scene.method == "mesh") return pack_mesh(scene, watch, state);
   if (packs_on_lattice(scene.method)) return pack_lattice(scene, watch, state);
   throw InputError(scene.case_file + ": method", '"' + scene.method + '"',
-                   "\"mesh\", \"digipac\" or \"digicgp\" in this version", "set method = \"mesh\"");
+                   "\"mesh\", \"digipac\", \"digicgp\" or \"digidem\" in this version",
+                   "set method = \"mesh\"");
 }
 
 int pack_into(const ResultFolder& folder, const Scene& scene, std::span<const std::byte> state, bool quiet) {

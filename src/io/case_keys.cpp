@@ -20,8 +20,9 @@ void general_keys(Fields& f, CaseRecord& r) {
   f.choice({.name = "method",
             .meaning =
                 "how to pack: mesh = rigid bodies with penalty contact; on a lattice of voxels, digipac = at "
-                "random, digicgp = guided by collisions"},
-           r.method, {"mesh", "digipac", "digicgp"});
+                "random, digicgp = guided by collisions, "
+                "digidem = by forces between voxels"},
+           r.method, {"mesh", "digipac", "digicgp", "digidem"});
   f.choice(
       {.name = "kernel", .meaning = "contact kernel; auto = the fastest exact one that the shapes allow"},
       r.kernel, {"auto", "sphere", "cylinder", "field"});

@@ -5,6 +5,7 @@
 
 #include "io/case.hpp"
 #include "math/quantity.hpp"
+#include "packers/packer.hpp"
 
 namespace packbed {
 namespace {
@@ -45,10 +46,12 @@ bool mixed_kernels(const Scene& s) {
   });
 }
 bool uses_field(const Scene& s, const Shape& shape) {
+  if (packs_on_lattice(s.method)) return false;
   return own_kernel(s, shape) == ShapeClass::mesh || s.container.kind == ContainerKind::mesh ||
          mixed_kernels(s);
 }
 std::string kernel_of(const Scene& s, const Shape& shape) {
+  if (packs_on_lattice(s.method)) return "cells";
   return uses_field(s, shape) ? "field" : std::string(to_string(shape.kind));
 }
 bool any_field(const Scene& s) {
@@ -288,9 +291,28 @@ std::string expected_text(const Scene& s, const Expected& e) {
       format_quantity(e.simulated, D::time, 3), e.steps, wall_clock(e.cpu), e.memory / 1e6);
 }
 
+/// The lattice and a pellet on it, in cells.
+std::string lattice_text(const Scene& s) {
+  const double voxel = s.lattice.voxel > 0 ? s.lattice.voxel : s.analysis.voxel;
+  const double wide = round_container(s) ? 2 * s.container.radius / voxel : 0,
+               high = s.container.height / voxel;
+  std::string out =
+      fmt::format("lattice\n  voxel {}, about {:.0f} x {:.0f} x {:.0f} cells, {:.3g} MB (limit {:g})\n",
+                  q(voxel, D::length), wide, wide, high, wide * wide * high / 8e6, s.lattice.memory_MB);
+  for (const PelletKind& k : s.pellets)
+    out += fmt::format("  {}: {:.0f} cells, {:.3g} over its thinnest part\n", k.shape->name,
+                       k.shape->volume / std::pow(voxel, 3), k.shape->smallest_thickness / voxel);
+  return out;
+}
+
 }  // namespace
 
 std::string plan(const Scene& scene) {
+  if (packs_on_lattice(scene.method)) {
+    Expected cells;  // the mesh packer's forces and steps say nothing here
+    return fmt::format("plan of \"{}\": method {}, seed {}\n", scene.name, scene.method, scene.seed) +
+           pellets_text(scene) + container_text(scene) + made_text(scene, cells) + lattice_text(scene);
+  }
   const Expected e = expect(scene);
   return fmt::format("plan of \"{}\": method {}, kernel {}, seed {}\n", scene.name, scene.method,
                      scene.kernel, scene.seed) +

@@ -1,6 +1,7 @@
 #include "io/grid.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "io/atomic_file.hpp"
 #include "io/hdf5_image.hpp"
@@ -115,6 +116,12 @@ GridFile read_grid(const std::string& path_or_folder) {
 
 bool is_grid_file(const std::string& path) {
   return is_sealed_as(path, kKind);
+}
+
+bool holds_grid(const std::string& path_or_folder) {
+  if (!std::filesystem::is_directory(path_or_folder)) return is_grid_file(path_or_folder);
+  const ResultFolder folder{path_or_folder};
+  return !folder.has(result_file::kBed) && folder.has(result_file::kVoxels);
 }
 
 }  // namespace packbed

@@ -28,5 +28,7 @@ GridFile read_grid(const std::string& path_or_folder);
 
 /// True when a file ends with the seal of a grid; false for any other and for none.
 bool is_grid_file(const std::string& path);
+/// The same, and for a result folder that has a grid and no bed.
+bool holds_grid(const std::string& path_or_folder);
 
 }  // namespace packbed

@@ -39,6 +39,8 @@ class Occupancy {
   /// Moves a pellet that is on the lattice by one cell.
   void move(const Stamp& stamp, Cell& at, int axis, int sign);
   bool taken(const Cell& cell) const;
+  /// Bits of the 64 cells from (x, y, z) along x; all set outside of the lattice.
+  std::uint64_t taken_from(int x, int y, int z) const;
 
   const GridFrame& frame() const { return frame_; }
   std::int64_t open_cells() const { return open_; }  ///< when nothing is on it

@@ -60,16 +60,20 @@ void audit_rest(RunRecord& record, const Model& model, const State& state) {
 
 }  // namespace
 
-PackedBed bed_of(const Model& model, const State& state) {
-  const Scene& scene = *model.scene;
+PackedBed bed_of_scene(const Scene& scene) {
   PackedBed bed;
   for (const PelletKind& pellet : scene.pellets) {
     bed.shapes.push_back(pellet.shape);
     bed.densities.push_back(pellet.density);
   }
   bed.container = scene.container;
-  bed.pellets = pellets_of(model, state);
   bed.provenance = {scene.case_text, scene.case_file, PACKBED_VERSION, scene.method, "cells", scene.seed};
+  return bed;
+}
+
+PackedBed bed_of(const Model& model, const State& state) {
+  PackedBed bed = bed_of_scene(*model.scene);
+  bed.pellets = pellets_of(model, state);
   return bed;
 }
 

@@ -7,6 +7,8 @@
 
 namespace packbed::lattice {
 
+/// Shapes, container and provenance; no pellets yet.
+PackedBed bed_of_scene(const Scene& scene);
 PackedBed bed_of(const Model& model, const State& state);
 /// The bed's cells in the frame of frame_for(bed, voxel).
 VoxelGrid grid_of(const PackedBed& bed, const Model& model, const State& state);

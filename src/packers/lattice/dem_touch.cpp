@@ -1,0 +1,173 @@
+// Phase touch of digidem: depth, direction and point from the shared cells, then spring and dashpot along the
+// normal and across it, as in the paper's equation, with Coulomb's limit.
+#include <algorithm>
+#include <cmath>
+
+#include "math/threads.hpp"
+#include "packers/lattice/dem.hpp"
+
+namespace packbed::lattice {
+namespace {
+
+/// Of the bias in a step: what recounting has changed comes in over some five contact times, slowly enough
+/// for the dashpots. Without it a bed never cools: half a voxel of depth at once is a kick of some 0.1 m/s.
+constexpr double kFade = 0.99;
+
+bool is_wall(const Touch& t) {
+  return t.b >= kFloor;
+}
+
+/// Where the normal on a is looked for before cells tell: from b's centre, or from the wall.
+Vec3 first_guess(const DemState& state, const Touch& t) {
+  const Vec3& x = state.bodies.position[t.a];
+  if (t.b == kFloor) return Vec3::UnitZ();
+  const Vec3 way = t.b == kSide ? Vec3(-x.x(), -x.y(), 0) : Vec3(x - state.bodies.position[t.b]);
+  return way.norm() > 0 ? Vec3(way.normalized()) : Vec3::UnitZ();
+}
+
+/// Counts the shared cells when a stamp has changed; true then.
+bool count_cells(const DemModel& model, const DemState& state, Touch& t) {
+  const std::uint32_t version_b = is_wall(t) ? 1 : state.version[t.b];
+  if (t.seen_a == state.version[t.a] && t.seen_b == version_b) return false;
+  t.seen_a = state.version[t.a];
+  t.seen_b = version_b;
+  const Vec3 guess = t.normal.squaredNorm() > 0 ? t.normal : first_guess(state, t);
+  constexpr double kShare = 0.38;  // of the normal: a lead along the nearest of the 26 neighbours
+  Cell at = state.cell[t.a];
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double n = guess[static_cast<int>(d)];
+    t.lead[d] = std::abs(n) < kShare ? 0 : n > 0 ? -1 : 1;
+    at[d] += t.lead[d];
+  }
+  const Stamp& a = state.stamp[t.a];
+  if (!is_wall(t)) {
+    const Cell& b = state.cell[t.b];
+    t.cells = shared_cells(a, state.stamp[t.b], {b[0] - at[0], b[1] - at[1], b[2] - at[2]});
+    return true;
+  }
+  // the tube's floor and its side are two touches; a mesh container is one
+  const bool tube = model.base.scene->container.kind == ContainerKind::tube;
+  const int high = t.b == kFloor ? 0 : model.base.frame.size[2], low = t.b == kSide && tube ? 0 : -2;
+  t.cells = shared_cells(a, state.walls, at, low, high);
+  return true;
+}
+
+/// Way of body i's material at `arm` from its centre since its stamp was made and laid [m].
+Vec3 way_since(const DemState& state, std::size_t i, const Vec3& arm) {
+  return state.offset[i] + state.turn[i].cross(arm);
+}
+
+struct Patch {
+  Vec3 arm_a, arm_b;  // of the point from the centres [m]
+  double area = 0;    // [m2]
+};
+
+/// Depth, normal and point; false when apart.
+bool find_patch(const DemModel& model, const DemState& state, bool counted, Touch& t, Patch& patch) {
+  t.depth = 0;
+  if (t.cells.count == 0) {
+    t.known = 0;
+    return false;
+  }
+  const double pitch = model.base.frame.pitch, n = static_cast<double>(t.cells.count);
+  Vec3 area, mean;
+  for (int d = 0; d < 3; ++d) {
+    area[d] = 0.5 * static_cast<double>(t.cells.area[static_cast<std::size_t>(d)]);
+    mean[d] = static_cast<double>(t.cells.sum[static_cast<std::size_t>(d)]) / n;
+  }
+  const double faces = area.norm();
+  if (faces < 0.5) area = first_guess(state, t);  // faces cancel: a pellet reaches right through
+  t.normal = area.normalized();
+  const Vec3 lead(t.lead[0], t.lead[1], t.lead[2]);
+  const Bodies& b = state.bodies;
+  const Cell& c = state.cell[t.a];
+  t.point = model.base.frame.centre(c[0], c[1], c[2]) + pitch * (mean + 0.5 * lead) + state.offset[t.a];
+  patch.arm_a = t.point - b.position[t.a];
+  patch.area = std::max(faces, 1.0) * pitch * pitch;
+  Vec3 way = way_since(state, t.a, patch.arm_a);
+  if (!is_wall(t)) {
+    patch.arm_b = t.point - b.position[t.b];
+    way -= way_since(state, t.b, patch.arm_b);
+  }
+  const double told = pitch * (n / std::max(faces, 1.0) + lead.dot(t.normal)) - way.dot(t.normal);
+  t.bias = counted ? (t.known ? t.last : std::min(0.0, told)) - told : kFade * t.bias;
+  t.known = 1;
+  t.last = told + t.bias;
+  t.depth = std::max(0.0, t.last);
+  return t.depth > 0;
+}
+
+struct Moving {
+  Vec3 velocity, spin;  // of a against b at the point
+  double mass;          // effective [kg]
+};
+
+Moving relative(const DemState& state, const Touch& t, const Patch& patch) {
+  const Bodies& b = state.bodies;
+  Moving m{b.velocity[t.a] + b.spin[t.a].cross(patch.arm_a), b.spin[t.a], 0};
+  double inverse = b.inverse_mass[t.a];
+  if (!is_wall(t)) {
+    m.velocity -= b.velocity[t.b] + b.spin[t.b].cross(patch.arm_b);
+    m.spin -= b.spin[t.b];
+    inverse += b.inverse_mass[t.b];
+  }
+  m.mass = 1 / inverse;
+  return m;
+}
+
+/// Force and couple on a. The spring and the dashpot are spread over the patch, which resists rocking as it
+/// does sinking: radius of gyration squared of a disc, area / (4 pi).
+void push(const DemState& state, const DemLaw& law, double step, const Patch& patch, Touch& t) {
+  const Moving m = relative(state, t, patch);
+  const double damping = 2 * law.damping_ratio * std::sqrt(law.stiffness * m.mass);
+  const double along = m.velocity.dot(t.normal);
+  const double normal = std::max(0.0, law.stiffness * t.depth - damping * along);
+  const Vec3 sliding = m.velocity - along * t.normal;
+  constexpr double kShear = 2.0 / 7;  // tangential over normal stiffness
+  const double shear = kShear * law.stiffness, shear_damping = std::sqrt(kShear) * damping;
+  t.spring -= t.normal * t.normal.dot(t.spring);
+  t.spring += step * sliding;
+  Vec3 rub = -shear * t.spring - shear_damping * sliding;
+  const double limit = law.friction * normal, size = rub.norm();
+  if (size > limit) {
+    rub *= size > 0 ? limit / size : 0;
+    t.spring = shear > 0 ? Vec3(-rub / shear) : Vec3::Zero();
+  }
+  t.force = normal * t.normal + rub;
+  const double gyration = patch.area / (4 * kPi);
+  Vec3 tilt = state.turn[t.a];
+  if (!is_wall(t)) tilt -= state.turn[t.b];
+  tilt -= tilt.dot(t.normal) * t.normal;
+  t.couple = -gyration * (law.stiffness * tilt + damping * m.spin);
+  // a touch that does not pull cannot hold a couple larger than its force at the patch's rim
+  const double most = normal * std::sqrt(patch.area / kPi), couple = t.couple.norm();
+  if (couple > most) t.couple *= most / couple;
+}
+
+}  // namespace
+
+void dem_touch(const DemModel& model, DemState& state) {
+  parallel_for(state.touches.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Touch& t = state.touches[k];
+      t.force = t.couple = Vec3::Zero();
+      const bool counted = count_cells(model, state, t);
+      Patch patch;
+      if (find_patch(model, state, counted, t, patch))
+        push(state, is_wall(t) ? model.wall : model.pellet, model.step, patch, t);
+    }
+  });
+  Bodies& b = state.bodies;
+  for (std::size_t i = 0; i < state.size(); ++i) b.force[i] = b.torque[i] = Vec3::Zero();
+  for (const Touch& t : state.touches) {  // in the order of the list
+    if (!(t.depth > 0)) continue;
+    state.peak = std::max(state.peak, t.depth);
+    b.force[t.a] += t.force;
+    b.torque[t.a] += (t.point - b.position[t.a]).cross(t.force) + t.couple;
+    if (is_wall(t)) continue;
+    b.force[t.b] -= t.force;
+    b.torque[t.b] -= (t.point - b.position[t.b]).cross(t.force) + t.couple;
+  }
+}
+
+}  // namespace packbed::lattice
