@@ -64,7 +64,7 @@ struct Stepping {
   double sleep_displacement =
       1e-3;                  // drift over the watch time below which a pellet may sleep, fraction of its size
   double rest_speed = 1e-3;  // mean kinetic speed under which a bed may be called at rest [m/s]
-  double rest_force = 1e-2;  // largest mean unbalanced force, fraction of the weight
+  double rest_force = 5e-2;  // largest mean unbalanced force, fraction of the weight
   double rest_drift = 4e-3;  // largest displacement over rest_window, fraction of the pellet size
   double rest_window = 0.02;  // [s]
   double max_time = 60;       // simulated time after which the run gives up waiting for rest [s]

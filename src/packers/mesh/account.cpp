@@ -84,7 +84,7 @@ void audit_wall_forces(RunRecord& record, const Model& model, const State& state
   const Pairs& pairs = state.pairs;
   for (std::size_t p = 0; p < pairs.pair.size(); ++p) {
     if (!is_container(pairs.pair[p].b)) continue;
-    (pairs.pair[p].b == kWall ? shear : base) += model.up.dot(pairs.record[p].force);
+    (pairs.pair[p].b == kWall ? shear : base) += model.up.dot(pairs.load[p].force);
   }
   for (std::size_t i = 0; i < state.bodies.size(); ++i)
     if (state.bodies.motion[i] != Motion::fixed) weight += state.bodies.mass[i] * model.gravity.norm();
@@ -130,10 +130,10 @@ PackedBed bed_of(const Scene& scene, const Model& model, const State& state) {
   bed.container = scene.container;
   for (std::size_t i = 0; i < state.bodies.size(); ++i) bed.pellets.push_back(pellet_of(state, i));
   for (std::size_t p = 0; p < state.pairs.pair.size(); ++p) {
-    const PairRecord& r = state.pairs.record[p];
-    if (!(r.delta > 0)) continue;
+    const Load& load = state.pairs.load[p];
+    if (!(load.delta > 0)) continue;
     const auto [a, b] = state.pairs.pair[p];
-    bed.contacts.push_back({a, is_container(b) ? kContainer : b, r.point, r.force, r.delta});
+    bed.contacts.push_back({a, is_container(b) ? kContainer : b, state.pairs.record[p].point, load.force, load.delta});
   }
   bed.provenance = {scene.case_text, scene.case_file,    PACKBED_VERSION,
                     scene.method,    kernel_name(model), scene.seed};

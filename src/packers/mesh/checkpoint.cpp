@@ -8,7 +8,7 @@
 namespace packbed::mesh {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'00000003;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'00000004;  // changes with any change of State
 
 class Writer {
  public:
@@ -72,7 +72,7 @@ void visit(Archive& io, S& s) {
   io(b.force), io(b.torque), io(b.motion);
   io(s.flight_end), io(s.flight_from), io(s.listed_at), io(s.margin), io(s.doze);
   auto& p = s.pairs;
-  io(p.pair), io(p.look_at), io(p.record), io(p.active), io(p.first), io(p.entry), io(p.shore),
+  io(p.pair), io(p.look_at), io(p.load), io(p.record), io(p.active), io(p.first), io(p.entry), io(p.shore),
       io(p.shore_stale);
   io(s.awake), io(s.next_landing), io(s.search_due);
   io(s.rest_since), io(s.rest_anchor), io(s.at_rest), io(s.last_watch), io(s.rest_speed), io(s.rest_force),

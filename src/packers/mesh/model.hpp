@@ -52,15 +52,19 @@ inline bool is_container(std::uint32_t b) {
   return b >= kFloor;
 }
 
-/// What a pair remembers between steps, and what the last look at it gave.
-struct PairRecord {
-  Spring spring;
+/// What a pair does to its bodies now: all that summing up needs, by itself for the sake of the cache.
+struct Load {
+  double delta = 0;                                       // solver's overlap [m]; 0: apart
   Vec3 force = Vec3::Zero();                              // on a [N]
   Vec3 torque_a = Vec3::Zero(), torque_b = Vec3::Zero();  // [N m]
+};
+
+/// What else a pair remembers between steps.
+struct PairRecord {
+  Spring spring;
   Vec3 point = Vec3::Zero();                              // [m]
   double elastic = 0;                                     // stored now [J]
   double damped = 0, rubbed = 0;                          // lost since the last search [J]
-  double delta = 0;                                       // solver's overlap now [m]
   RodFeatures features;                                   // of the cylinder kernel: what is known of the pair
   double held = 0;  // size of the force when one of the two fell asleep [N]
   double peak = 0;  // greatest depth since the last search, fraction of the thickness
@@ -71,6 +75,7 @@ struct PairRecord {
 struct Pairs {
   std::vector<BodyPair> pair;   // ascending
   std::vector<double> look_at;  // no touch before the travel of both bodies adds up to this [m]
+  std::vector<Load> load;
   std::vector<PairRecord> record;
   std::vector<std::uint32_t> active;  // those with a body that moves
   // bodies to pairs: entries 2 * pair + side of body i stand at first[i] .. first[i + 1]

@@ -59,23 +59,26 @@ void add_container_pairs(const Model& model, const State& state, std::vector<Bod
 /// Old pairs that touch while both stand still keep their forces; they are not searched for again.
 void keep_quiet_pairs(const State& state, std::vector<BodyPair>& pairs) {
   for (std::size_t p = 0; p < state.pairs.pair.size(); ++p)
-    if (state.pairs.record[p].delta > 0 && quiet(state.bodies, state.pairs.pair[p]))
+    if (state.pairs.load[p].delta > 0 && quiet(state.bodies, state.pairs.pair[p]))
       pairs.push_back(state.pairs.pair[p]);
 }
 
 /// Carries records over to the new list; both lists ascend.
 void carry_over(Pairs& pairs, std::vector<BodyPair>& fresh) {
   std::vector<double> look_at(fresh.size(), 0.0);
+  std::vector<Load> load(fresh.size());
   std::vector<PairRecord> record(fresh.size());
   std::size_t old = 0;
   for (std::size_t p = 0; p < fresh.size(); ++p) {
     while (old < pairs.pair.size() && pairs.pair[old] < fresh[p]) ++old;
     if (old == pairs.pair.size() || !(pairs.pair[old] == fresh[p])) continue;
     look_at[p] = pairs.look_at[old];
+    load[p] = pairs.load[old];
     record[p] = pairs.record[old];
   }
   pairs.pair.swap(fresh);
   pairs.look_at.swap(look_at);
+  pairs.load.swap(load);
   pairs.record.swap(record);
 }
 

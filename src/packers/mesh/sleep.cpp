@@ -40,7 +40,7 @@ bool has_settled(const Model& model, const State& state, std::size_t i) {
   if (0.5 * size * turn > limit) return false;
   const Pairs& pairs = state.pairs;
   for (std::uint32_t e = pairs.first[i]; e < pairs.first[i + 1]; ++e)
-    if (pairs.record[pairs.entry[e] >> 1].delta > 0) return true;
+    if (pairs.load[pairs.entry[e] >> 1].delta > 0) return true;
   return false;
 }
 
@@ -66,8 +66,8 @@ void fall_asleep(State& state, std::size_t i) {
   d.turn_rate.setZero();
   Pairs& pairs = state.pairs;
   for (std::uint32_t e = pairs.first[i]; e < pairs.first[i + 1]; ++e) {
-    PairRecord& r = pairs.record[pairs.entry[e] >> 1];
-    r.held = r.force.norm();
+    const std::uint32_t p = pairs.entry[e] >> 1;
+    pairs.record[p].held = pairs.load[p].force.norm();
   }
   state.search_due = 1;
 }
@@ -95,8 +95,8 @@ bool has_lost_support(const Model& model, const State& state, std::size_t i) {
   const Pairs& pairs = state.pairs;
   double lost = 0;
   for (std::uint32_t e = pairs.first[i]; e < pairs.first[i + 1]; ++e) {
-    const PairRecord& r = pairs.record[pairs.entry[e] >> 1];
-    lost += std::max(0.0, r.held - r.force.norm());
+    const std::uint32_t p = pairs.entry[e] >> 1;
+    lost += std::max(0.0, pairs.record[p].held - pairs.load[p].force.norm());
   }
   return lost > kLostSupport * state.bodies.mass[i] * model.gravity.norm();
 }

@@ -48,7 +48,7 @@ void gather(const State& state, std::size_t i, Vec3& force, Vec3& torque) {
   torque.setZero();
   const Pairs& pairs = state.pairs;
   for (std::uint32_t e = pairs.first[i]; e < pairs.first[i + 1]; ++e) {
-    const PairRecord& r = pairs.record[pairs.entry[e] >> 1];
+    const Load& r = pairs.load[pairs.entry[e] >> 1];
     if (!(r.delta > 0)) continue;
     if (pairs.entry[e] & 1U) {
       force -= r.force;

@@ -8,6 +8,9 @@
 namespace packbed::mesh {
 namespace {
 
+// Pairs between the one looked at and the one whose record is fetched.
+constexpr std::size_t kAhead = 6;
+
 /// Motion of a against b at the touch. What is not awake stands still; b may be the container.
 Approach approach_of(const Bodies& bodies, const Touch& t, std::uint32_t a, std::uint32_t b) {
   Approach out;
@@ -27,14 +30,11 @@ Approach approach_of(const Bodies& bodies, const Touch& t, std::uint32_t a, std:
 }
 
 /// The pair has come apart. What was still stored while the dashpot held the spring back has gone into it.
-void part(PairRecord& r) {
-  if (r.force.isZero(0)) r.damped += r.elastic;
+void part(Load& load, PairRecord& r) {
+  if (load.force.isZero(0)) r.damped += r.elastic;
+  load = Load{};
   r.spring = Spring{};
-  r.force.setZero();
-  r.torque_a.setZero();
-  r.torque_b.setZero();
   r.elastic = 0;
-  r.delta = 0;
 }
 
 double thickness_of(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t b) {
@@ -42,19 +42,20 @@ double thickness_of(const Model& model, const Bodies& bodies, std::uint32_t a, s
   return is_container(b) ? of_a : std::min(of_a, model.kinds[bodies.kind[b]].thickness);
 }
 
-void push(const Model& model, const Bodies& bodies, const BodyPair& pair, const Touch& t, PairRecord& r) {
+void push(const Model& model, const Bodies& bodies, const BodyPair& pair, const Touch& t, Load& load,
+          PairRecord& r) {
   const auto [a, b] = pair;
   const bool wall = is_container(b);
   const LawNumbers& law = wall ? model.wall_law : model.pellet_law;
   const ContactForce f = resolve(t, law, approach_of(bodies, t, a, b), model.step, r.spring);
-  r.force = f.push * t.gradient + f.friction;
-  r.torque_a = f.push * t.torque_a + (t.point - bodies.position[a]).cross(f.friction) + f.moment;
-  if (!wall) r.torque_b = f.push * t.torque_b - (t.point - bodies.position[b]).cross(f.friction) - f.moment;
+  load.force = f.push * t.gradient + f.friction;
+  load.torque_a = f.push * t.torque_a + (t.point - bodies.position[a]).cross(f.friction) + f.moment;
+  if (!wall) load.torque_b = f.push * t.torque_b - (t.point - bodies.position[b]).cross(f.friction) - f.moment;
   r.point = t.point;
   r.elastic = f.elastic;
   r.damped += f.damped;
   r.rubbed += f.rubbed;
-  r.delta = t.delta;
+  load.delta = t.delta;
   const double depth = t.depth / thickness_of(model, bodies, a, b);
   r.peak = std::max(r.peak, depth);
   ++r.touches;
@@ -70,11 +71,12 @@ double travel_of(const State& state, std::uint32_t p) {
 
 void take(const Model& model, State& state, std::uint32_t p, const Touch& t, double look_at) {
   PairRecord& r = state.pairs.record[p];
+  Load& load = state.pairs.load[p];
   if (t.delta > 0) {
-    push(model, state.bodies, state.pairs.pair[p], t, r);
+    push(model, state.bodies, state.pairs.pair[p], t, load, r);
     return;
   }
-  if (r.delta > 0) part(r);
+  if (load.delta > 0) part(load, r);
   state.pairs.look_at[p] = look_at;
 }
 
@@ -94,9 +96,14 @@ void look_at_rods(const Model& model, State& state, RodLooks& looks) {
   });
 }
 
+/// The record of a pair, soon to be used, on its way into the cache.
+void fetch(const PairRecord& record) {
+  const auto* line = reinterpret_cast<const char*>(&record);
+  for (std::size_t at = 0; at < sizeof(PairRecord); at += 64) __builtin_prefetch(line + at, 1);
+}
+
 void look(const Model& model, State& state, std::uint32_t p, RodLooks& looks) {
   const double travelled = travel_of(state, p);
-  if (travelled < state.pairs.look_at[p]) return;
   PairRecord& r = state.pairs.record[p];
   if (!r.features.known) {
     look_afresh(model, state, p, travelled);
@@ -114,7 +121,14 @@ void touch(const Model& model, State& state) {
   state.ledger.active += static_cast<double>(active.size());
   parallel_for(active.size(), 64, [&](std::size_t from, std::size_t to) {
     thread_local RodLooks looks;
-    for (std::size_t k = from; k < to; ++k) look(model, state, active[k], looks);
+    thread_local std::vector<std::uint32_t> due;
+    due.clear();
+    for (std::size_t k = from; k < to; ++k)
+      if (travel_of(state, active[k]) >= state.pairs.look_at[active[k]]) due.push_back(active[k]);
+    for (std::size_t k = 0; k < due.size(); ++k) {
+      if (k + kAhead < due.size()) fetch(state.pairs.record[due[k + kAhead]]);
+      look(model, state, due[k], looks);
+    }
     look_at_rods(model, state, looks);
   });
 }
