@@ -13,10 +13,10 @@ namespace {
 
 // Radius of the ring inside each cap, fraction of the cap's: it carries caps whose rims lie on one another.
 // Near the rim, because two caps that lean together by an edge overlap there first.
-constexpr double kCapRing = 0.9;
+constexpr double kCapRing = 0.96;
 // Height of the two rings round the side, fraction of the half height: they carry parallel sides whose caps
 // are level.
-constexpr double kSideRing = 0.85;
+constexpr double kSideRing = 0.95;
 // Length that the touch of two crossed sides counts for, fraction of the reference length: with it, it is
 // about as stiff as an edge.
 constexpr double kSideLength = 0.05;
@@ -321,8 +321,8 @@ double depth_in_cylinder(const Vec3& x, const Vec3& axis, double radius, double 
   const double b = (half_height * half_height - z * z) / (2.0 * half_height);
   slope.setZero();
   if (!(a > 0 && b > 0)) return 0;
-  const double norm = std::sqrt(a * a + b * b);
-  slope = -(1.0 - a / norm) / radius * rho - ((1.0 - b / norm) * z / half_height) * axis;
+  const double norm = std::sqrt(std::sqrt(a * a * a * a + b * b * b * b)), norm3 = norm * norm * norm;
+  slope = -(1.0 - a * a * a / norm3) / radius * rho - ((1.0 - b * b * b / norm3) * z / half_height) * axis;
   return a + b - norm;
 }
 

@@ -9,7 +9,7 @@
 //
 // The depth of a point in a cylinder of radius R and half height h, at distance rho from the axis and height
 // z:
-//     a = (R^2 - rho^2) / 2R,   b = (h^2 - z^2) / 2h,   depth = a + b - sqrt(a^2 + b^2)   for a, b > 0
+//     a = (R^2 - rho^2) / 2R,   b = (h^2 - z^2) / 2h,   depth = a + b - (a^4 + b^4)^(1/4)   for a, b > 0
 // It is smooth inside, never larger than the nearer of the two distances, and of unit slope at the surface
 // (Rvachev's R-function).
 #include <array>

@@ -161,9 +161,11 @@ PACKBED_WIDE void follow(RodArcBatch& b) {
     t.go_to(s, c);
     const Lanes in_side = positive(0.5 * per_radius * t.side()),
                 in_cap = positive(0.5 * per_height * t.cap());
-    const Lanes norm = root_of(in_side * in_side + in_cap * in_cap) + 1e-300, per_norm = 1.0 / norm;
-    const Lanes d = positive(in_side + in_cap - norm);
-    const Lanes slope_side = 1.0 - in_side * per_norm, slope_cap = 1.0 - in_cap * per_norm;
+    // depth = a + b - (a^4 + b^4)^(1/4)
+    const Lanes side2 = in_side * in_side, cap2 = in_cap * in_cap;
+    const Lanes norm2 = root_of(side2 * side2 + cap2 * cap2), norm = root_of(norm2) + 1e-300;
+    const Lanes per_norm3 = 1.0 / (norm * norm * norm + 1e-300), d = positive(in_side + in_cap - norm);
+    const Lanes slope_side = 1.0 - side2 * in_side * per_norm3, slope_cap = 1.0 - cap2 * in_cap * per_norm3;
     const Lanes p = w * depth_power<kCurveExponent>(d), r = w * depth_power_slope<kCurveExponent>(d);
     const Lanes r_side = r * slope_side * per_radius, r_cap = r * slope_cap * per_height;
     const Lanes along = 0.5 * (r_side * t.side_dot() + r_cap * t.cap_dot()) * length;

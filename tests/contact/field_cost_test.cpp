@@ -125,7 +125,7 @@ TEST(FieldKernel, FollowsTheCylinderKernelOnItsMesh) {
   for (const double depth : {0.005 * kD, 0.02 * kD}) {
     const Likeness like = compare(body, random_pairs(300, depth));
     EXPECT_EQ(like.missed, 0);
-    EXPECT_NEAR(like.mean, 0.87, 0.12);  // the cylinder kernel counts a point touch for more (see touch.hpp)
+    EXPECT_NEAR(like.mean, 0.83, 0.14);  // the cylinder kernel counts a point touch for more (see touch.hpp)
     EXPECT_LT(like.deviation, 0.2);
     EXPECT_LT(like.angle, 3);
   }

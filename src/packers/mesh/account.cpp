@@ -133,7 +133,8 @@ PackedBed bed_of(const Scene& scene, const Model& model, const State& state) {
     const Load& load = state.pairs.load[p];
     if (!(load.delta > 0)) continue;
     const auto [a, b] = state.pairs.pair[p];
-    bed.contacts.push_back({a, is_container(b) ? kContainer : b, state.pairs.record[p].point, load.force, load.delta});
+    bed.contacts.push_back(
+        {a, is_container(b) ? kContainer : b, state.pairs.record[p].point, load.force, load.delta});
   }
   bed.provenance = {scene.case_text, scene.case_file,    PACKBED_VERSION,
                     scene.method,    kernel_name(model), scene.seed};

@@ -62,12 +62,12 @@ struct Load {
 /// What else a pair remembers between steps.
 struct PairRecord {
   Spring spring;
-  Vec3 point = Vec3::Zero();                              // [m]
-  double elastic = 0;                                     // stored now [J]
-  double damped = 0, rubbed = 0;                          // lost since the last search [J]
-  RodFeatures features;                                   // of the cylinder kernel: what is known of the pair
-  double held = 0;  // size of the force when one of the two fell asleep [N]
-  double peak = 0;  // greatest depth since the last search, fraction of the thickness
+  Vec3 point = Vec3::Zero();      // [m]
+  double elastic = 0;             // stored now [J]
+  double damped = 0, rubbed = 0;  // lost since the last search [J]
+  RodFeatures features;           // of the cylinder kernel: what is known of the pair
+  double held = 0;                // size of the force when one of the two fell asleep [N]
+  double peak = 0;                // greatest depth since the last search, fraction of the thickness
   // touching steps since the last search, and those deeper than 5 % and 10 % of the thickness
   std::uint32_t touches = 0, deep_touches = 0, very_deep_touches = 0;
 };

@@ -50,7 +50,8 @@ void push(const Model& model, const Bodies& bodies, const BodyPair& pair, const 
   const ContactForce f = resolve(t, law, approach_of(bodies, t, a, b), model.step, r.spring);
   load.force = f.push * t.gradient + f.friction;
   load.torque_a = f.push * t.torque_a + (t.point - bodies.position[a]).cross(f.friction) + f.moment;
-  if (!wall) load.torque_b = f.push * t.torque_b - (t.point - bodies.position[b]).cross(f.friction) - f.moment;
+  if (!wall)
+    load.torque_b = f.push * t.torque_b - (t.point - bodies.position[b]).cross(f.friction) - f.moment;
   r.point = t.point;
   r.elastic = f.elastic;
   r.damped += f.damped;
