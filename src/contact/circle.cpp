@@ -206,8 +206,13 @@ void span_plane(const Vec3& axis, const Vec3& wish, Vec3& e1, Vec3& e2) {
 
 PeakList positive_peaks(const TrigQuadratic& f) {
   // with little of the second harmonic there is one maximum, near that of the first
-  const double first2 = f.k1 * f.k1 + f.k2 * f.k2, second2 = 0.25 * (f.k3 * f.k3 + f.k4 * f.k4);
-  return first2 > 16.0 * second2 ? single_peak(f) : sampled_peaks(f);
+  const double spare = std::hypot(f.k1, f.k2) - 2.0 * std::hypot(f.k3, f.k4);
+  PeakList peaks = spare > 0 ? single_peak(f) : sampled_peaks(f);
+  if (spare > 0)
+    peaks.lone = spare;
+  else if (peaks.size == 1 && peaks.below < -1e299)
+    peaks.lone = 0;
+  return peaks;
 }
 
 Arc arc_round(const TrigQuadratic& f, const Peak& peak, double tolerance) {

@@ -62,6 +62,9 @@ struct PeakList {
   std::array<Peak, 2> peak;
   int size = 0;
   double below = -1e300;  // greatest maximum that stays below zero, if any
+  // of a lone maximum: amplitude of the first harmonic over four times that of the second, by which f is safe
+  // from having another; without bound where there are two
+  double lone = 1e300;
 };
 
 /// All peaks above zero; two that no valley below zero parts are one.

@@ -24,6 +24,14 @@ constexpr double kSideLength = 0.05;
 // sides.
 constexpr double kParallel = 0.03;
 
+// How fast the first harmonic of R^2 - rho^2 along a circle of radius r, less four times the second, can
+// change with the travel of the bodies, over r: 2 r (the centre) + 4 r (turns) of the first, 4 r of the
+// second, doubled.
+constexpr double kHarmonicRate = 20;
+// Way after which a circle that may get a second maximum at any moment is looked at again, fraction of its
+// radius.
+constexpr double kLookAgain = 1e-3;
+
 constexpr std::uint8_t kCircles = 12;  // 0 to 5 those of a, 6 to 11 those of b
 constexpr float kFar = 1e30F;          // a way that nothing goes
 enum EndName { kSide = 0, kCap = 1 };
@@ -173,6 +181,8 @@ void find_arcs(Finding& found, std::uint8_t circle, const Feature& f, const Vec3
   const PeakList peaks = positive_peaks(side);
   if (peaks.below > -1e299)
     found.gap = std::min(found.gap, std::sqrt(rod.radius * rod.radius - peaks.below) - rod.radius);
+  if (peaks.size > 0)
+    found.gap = std::min(found.gap, std::max(peaks.lone / (kHarmonicRate * f.radius), kLookAgain * f.radius));
   const ArcList caps = arcs_between_caps(g);
   ArcList sides;
   for (int i = 0; i < peaks.size; ++i)
