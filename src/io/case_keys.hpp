@@ -27,8 +27,8 @@ struct ContainerRecord {
 
 struct ContactRecord {
   double friction = 0.6;
-  std::optional<double> damping = 0.4, restitution = {};         // one of them
-  std::optional<double> stiffness = {}, allowed_overlap = 0.05;  // one of them
+  std::optional<double> damping = 0.4, restitution = {};          // one of them
+  std::optional<double> stiffness = {}, allowed_overlap = 0.045;  // one of them
   bool torsion = true;
 };
 

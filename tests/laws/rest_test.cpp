@@ -85,6 +85,7 @@ Scene pour(const ShapePtr& shape, int count) {
   s.feed.per_layer = 8;
   s.feed.drop_height = 40e-3;
   s.feed.interval = 0.05;
+  s.stepping.rest_force = 0.01;
   return s;
 }
 
@@ -97,7 +98,7 @@ TEST(Bed, AtRestIsCarriedByFloorAndWall) {
     EXPECT_EQ(r.record.pellets.inside, 60);
     const double weight = 60 * kDensity * shape->volume * kGravity;
     EXPECT_NEAR(r.record.wall.weight_N / weight, 1, 1e-9);
-    EXPECT_NEAR((r.record.wall.base_force_N + r.record.wall.side_shear_N) / weight, 1, 2e-3) << shape->name;
+    EXPECT_NEAR((r.record.wall.base_force_N + r.record.wall.side_shear_N) / weight, 1, 5e-3) << shape->name;
     EXPECT_LT(r.record.energy.ledger_error, 0.01) << shape->name;
     EXPECT_TRUE(r.record.audit_passed()) << shape->name;
     Vec3 carried = Vec3::Zero();
