@@ -13,10 +13,10 @@ namespace {
 
 // Radius of the ring inside each cap, fraction of the cap's: it carries caps whose rims lie on one another.
 // Near the rim, because two caps that lean together by an edge overlap there first.
-constexpr double kCapRing = 0.96;
+constexpr double kCapRing = 0.98;
 // Height of the two rings round the side, fraction of the half height: they carry parallel sides whose caps
 // are level.
-constexpr double kSideRing = 0.95;
+constexpr double kSideRing = 0.98;
 // Length that the touch of two crossed sides counts for, fraction of the reference length: with it, it is
 // about as stiff as an edge.
 constexpr double kSideLength = 0.05;

@@ -239,7 +239,8 @@ TEST(CasePlan, HardestImpactIsTheFreeFall) {
 
 // --- the scene library -----------------------------------------------------------------------------------
 
-TEST_F(CaseFiles, EveryCaseOfTheLibraryIsReadAndReadsBack) {
+using LongCaseFiles = CaseFiles;
+TEST_F(LongCaseFiles, EveryCaseOfTheLibraryIsReadAndReadsBack) {
   int cases = 0;
   for (const auto& entry : fs::recursive_directory_iterator(PACKBED_SOURCE_DIR "/cases")) {
     if (entry.path().extension() != ".toml") continue;

@@ -64,7 +64,7 @@ void expect_row(const Shape& s, const Row& row, double chord, const std::string&
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(s.inertia[k] * 1e15 / row.inertia[k], 1, 2 * chord) << name;
 }
 
-TEST(Library, EveryShapeIsTheSameBySizesAndByCad) {
+TEST(LongLibrary, EveryShapeIsTheSameBySizesAndByCad) {
   const toml::table bodies = toml::parse_file(mesh_file("bodies.toml"));
   int compared = 0;
   for (const auto& [key, value] : bodies) {

@@ -75,7 +75,7 @@ Moments hollow(Moments outside, const Moments& inside) {
   return outside += -inside;
 }
 
-TEST(Meshes, TableHasTheClosedForms) {
+TEST(LongMeshes, TableHasTheClosedForms) {
   const auto rows = table();
   expect_row(rows.at("a38"), frustum(1.71, 1.71, -1.73, 3.46));
   expect_row(rows.at("hama"), hollow(frustum(2.3, 2.3, -2.5, 5), frustum(1.25, 1.25, -2.5, 5)));
@@ -100,7 +100,7 @@ TEST(Meshes, TableHasTheClosedForms) {
               1e-5);
 }
 
-TEST(Meshes, TableIsWhatItsProgramPrints) {
+TEST(LongMeshes, TableIsWhatItsProgramPrints) {
   const TemporaryFolder folder;
   const std::string printed = folder.file("table.csv");
   const std::string command = fmt::format("'{}' '{}' > '{}'", PACKBED_PYTHON, mesh_file("table"), printed);
@@ -166,16 +166,16 @@ void expect_all(const std::string& folder) {
   expect_msh(folder + "/a38_22.msh", table().at("a38"));
 }
 
-TEST(Meshes, FilesFollowTheTable) {
+TEST(LongMeshes, FilesFollowTheTable) {
   expect_all(PACKBED_SOURCE_DIR "/meshes");
 }
 
-TEST(Meshes, EllipsoidsCornersLieOnIt) {
+TEST(LongMeshes, EllipsoidsCornersLieOnIt) {
   for (const Vec3& p : read_cad(mesh_file("ellipsoid.step")).mesh.vertices)
     EXPECT_NEAR(p.cwiseQuotient(Vec3(2.5e-3, 2e-3, 1.6e-3)).norm(), 1, 1e-9);
 }
 
-TEST(Meshes, SourcesGiveTheSameFilesAnew) {
+TEST(LongMeshes, SourcesGiveTheSameFilesAnew) {
   const TemporaryFolder folder;
   const std::string command = fmt::format("ASAN_OPTIONS=detect_leaks=0 '{}' '{}' '{}' >/dev/null 2>&1",
                                           PACKBED_MESHES_PROGRAM, mesh_file("bodies.toml"), folder.path());
