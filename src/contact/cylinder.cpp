@@ -11,12 +11,14 @@
 namespace packbed {
 namespace {
 
-// Radius of the ring inside each cap, fraction of the cap's: it carries caps whose rims lie on one another.
-// Near the rim, because two caps that lean together by an edge overlap there first.
-constexpr double kCapRing = 0.98;
-// Height of the two rings round the side, fraction of the half height: they carry parallel sides whose caps
-// are level.
-constexpr double kSideRing = 0.98;
+// Circles at one end of a cylinder: the rim; two rings in its cap, which carry caps whose rims lie on one
+// another; two round its side, which carry parallel sides whose caps are level. Those near the rim see two
+// caps or sides that lean together by an edge, those further in still rise where the others end: how deep a
+// circle sees is limited by its distance from the rim.
+struct Place {
+  double radius, height;  // fractions of the radius and of the half height
+};
+constexpr std::array<Place, 5> kEnd = {{{1, 1}, {0.7, 1}, {0.97, 1}, {1, 0.6}, {1, 0.97}}};
 // Length that the touch of two crossed sides counts for, fraction of the reference length: with it, it is
 // about as stiff as an edge.
 constexpr double kSideLength = 0.05;
@@ -32,8 +34,9 @@ constexpr double kHarmonicRate = 20;
 // radius.
 constexpr double kLookAgain = 1e-3;
 
-constexpr std::uint8_t kCircles = 12;  // 0 to 5 those of a, 6 to 11 those of b
-constexpr float kFar = 1e30F;          // a way that nothing goes
+constexpr std::uint8_t kCircles = 4 * kEnd.size();
+static_assert(kCircles == RodFeatures::kCrossing);
+constexpr float kFar = 1e30F;  // a way that nothing goes
 enum EndName { kSide = 0, kCap = 1 };
 
 /// A circle in the frame of a cylinder: everything is a trigonometric polynomial of the angle phi.
@@ -55,20 +58,25 @@ struct CircleInRod {
   }
 };
 
-/// One of the twelve circles of a pair: rims, rings in the caps and rings round the side.
+/// Circles of a come first.
+bool of_a(std::uint8_t circle) {
+  return circle < 2 * kEnd.size();
+}
+
+/// One of the circles of a pair: rims, rings in the caps and rings round the side.
 struct Feature {
   Vec3 centre;
   double radius;
   const Rod *owner, *other;
 };
 
-Feature circle_of(int feature, const Rod& a, const Rod& b) {
-  const bool of_a = feature < 6;
-  const Rod& rod = of_a ? a : b;
-  const int k = of_a ? feature : feature - 6;
-  const double end = k < 3 ? -1.0 : 1.0;
-  const double height = k % 3 == 2 ? kSideRing : 1.0, radius = k % 3 == 1 ? kCapRing : 1.0;
-  return {rod.centre + end * height * rod.half_height * rod.axis, radius * rod.radius, &rod, of_a ? &b : &a};
+Feature circle_of(std::uint8_t circle, const Rod& a, const Rod& b) {
+  const Rod& rod = of_a(circle) ? a : b;
+  const std::size_t k = circle % (2 * kEnd.size());
+  const Place& place = kEnd[k % kEnd.size()];
+  const double end = k < kEnd.size() ? -1.0 : 1.0;
+  return {rod.centre + end * place.height * rod.half_height * rod.axis, place.radius * rod.radius, &rod,
+          of_a(circle) ? &b : &a};
 }
 
 /// What a look at one circle finds.
@@ -248,7 +256,7 @@ void set_lane(RodArcBatch& batch, int k, const RodArc& arc, const Rod& a, const 
   };
   set(batch.centre, f.centre - f.other->centre);
   set(batch.owner, f.owner->axis);
-  set(batch.wish, arc.circle < 6 ? features.wish_a : features.wish_b);
+  set(batch.wish, of_a(arc.circle) ? features.wish_a : features.wish_b);
   set(batch.axis, f.other->axis);
   batch.radius[k] = f.radius;
   batch.rod_radius[k] = f.other->radius;
@@ -266,8 +274,8 @@ void set_lane(RodArcBatch& batch, int k, const RodArc& arc, const Rod& a, const 
 void add_lane(TouchSum<kCurveExponent>& sum, const RodArcBatch& batch, int k, const RodArc& arc, const Rod& a,
               const Rod& b) {
   const auto get = [k](const LaneVec& lanes) { return Vec3(lanes.x[k], lanes.y[k], lanes.z[k]); };
-  const Vec3& centre = arc.circle < 6 ? b.centre : a.centre;
-  const double sign = arc.circle < 6 ? 1.0 : -1.0;
+  const Vec3& centre = of_a(arc.circle) ? b.centre : a.centre;
+  const double sign = of_a(arc.circle) ? 1.0 : -1.0;
   const Vec3 force = sign * get(batch.force), x = get(batch.pressure_x);
   Pressure pressure{batch.pressure[k], x + batch.pressure[k] * centre, Mat3::Zero()};
   pressure.xx << batch.xx[k], batch.xy[k], batch.xz[k], batch.xy[k], batch.yy[k], batch.yz[k], batch.xz[k],
@@ -295,7 +303,7 @@ void look_again(std::uint8_t circle, const Rod& a, const Rod& b, float gone, Rod
   features.until[circle] = later(gone, found.gap);
   if (found.size == 0) return;
   // angles are kept from the vector that all looks share, which e1 has turned away from
-  const Vec3& wish = circle < 6 ? features.wish_a : features.wish_b;
+  const Vec3& wish = of_a(circle) ? features.wish_a : features.wish_b;
   const double turned = std::atan2(e1.dot(f.owner->axis.cross(wish)), e1.dot(wish));
   for (std::size_t k = 0; k < found.size; ++k) {
     if (features.arcs == RodFeatures::kMostArcs) {

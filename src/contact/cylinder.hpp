@@ -4,7 +4,7 @@
 // other body and nowhere else:
 //
 //     rim in cylinder     four rims; an arc of Gauss nodes between exact end points     edge and face touches
-//     ring in cylinder    a ring inside each cap, two round the side                    coaxial caps, level
+//     ring in cylinder    two rings inside each cap, four round the side                coaxial caps, level
 //     parallel sides side against side   the common perpendicular of the axes, closed form crossed cylinders
 //
 // The depth of a point in a cylinder of radius R and half height h, at distance rho from the axis and height
@@ -33,10 +33,10 @@ struct Rod {
 double separation(const Rod& a, const Rod& b);
 
 /// What the looks at a pair have found: all that the next one needs while the bodies stay about where they
-/// are. Each of the thirteen places where a pair can touch (twelve circles, and the crossing of the sides) is
+/// are. Each of the places where a pair can touch (twenty circles, and the crossing of the sides) is
 /// looked at again only when the bodies may have gone far enough to change what is known of it.
 struct RodFeatures {
-  static constexpr std::size_t kMostArcs = 16, kPlaces = 13, kCrossing = 12;
+  static constexpr std::size_t kMostArcs = 24, kCrossing = 20, kPlaces = kCrossing + 1;
   bool known = false;     // all the rest holds
   bool crossing = false;  // of the sides touches
   std::uint8_t arcs = 0;  // that touch

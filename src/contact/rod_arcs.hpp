@@ -15,7 +15,7 @@ namespace packbed {
 /// An arc of circle number `circle` of a pair (see cylinder.cpp), as it was when last looked at.
 struct RodArc {
   double from = 0, to = 0;                // [rad], from the first vector of its plane
-  std::uint8_t circle = 0;                // 0 .. 11
+  std::uint8_t circle = 0;                // 0 .. 19
   std::uint8_t from_cap = 0, to_cap = 0;  // 1: the end lies in a cap; 0: in the side
   std::uint8_t half = 0;  // 1, 2: the first, the second half of a wide arc; 0: the whole of it
   std::uint8_t full = 0;  // a full turn, which has no ends

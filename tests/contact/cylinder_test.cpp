@@ -123,17 +123,18 @@ TEST(Cylinders, NoOverlapIsMissed) {
 }
 
 TEST(Cylinders, LevelParallelSidesAndCoaxialCapsTouch) {
-  const double depth = 1e-5;
-  const Rod a{Vec3::Zero(), Vec3::UnitZ(), kRadius, kHalfHeight};
-  const Rod beside{Vec3(2 * kRadius - depth, 0, 0), Vec3::UnitZ(), kRadius, kHalfHeight};
-  const Rod above{Vec3(0, 0, 2 * kHalfHeight - depth), Vec3::UnitZ(), kRadius, kHalfHeight};
-  for (const Rod& other : {beside, above}) {
-    const Touch t = touch_cylinders(a, other);
-    EXPECT_GT(t.delta, 0.2 * depth);
-    EXPECT_LT(t.delta, 2 * depth);
-    const Vec3 away = (a.centre - other.centre).normalized();
-    EXPECT_NEAR(t.gradient.normalized().dot(away), 1, 1e-9);
-    EXPECT_LT(t.torque_a.norm(), 1e-9 * kRadius);
+  for (const double depth : {1e-5, 0.02 * 2 * kRadius, 0.05 * 2 * kRadius}) {  // and go on rising
+    const Rod a{Vec3::Zero(), Vec3::UnitZ(), kRadius, kHalfHeight};
+    const Rod beside{Vec3(2 * kRadius - depth, 0, 0), Vec3::UnitZ(), kRadius, kHalfHeight};
+    const Rod above{Vec3(0, 0, 2 * kHalfHeight - depth), Vec3::UnitZ(), kRadius, kHalfHeight};
+    for (const Rod& other : {beside, above}) {
+      const Touch t = touch_cylinders(a, other);
+      EXPECT_GT(t.delta, 0.6 * depth);
+      EXPECT_LT(t.delta, 2 * depth);
+      const Vec3 away = (a.centre - other.centre).normalized();
+      EXPECT_NEAR(t.gradient.normalized().dot(away), 1, 1e-9);
+      EXPECT_LT(t.torque_a.norm(), 1e-9 * kRadius);
+    }
   }
 }
 
