@@ -51,9 +51,31 @@ void deepest_point(const Body& from, const Body& into, Overlap& overlap) {
   }
 }
 
+bool sphere(const Body& body) {
+  return body.solid().shape->kind == ShapeClass::sphere;
+}
+
+/// Two spheres share a lens.
+void between_spheres(const Body& a, const Body& b, Overlap& overlap) {
+  const double r = 0.5 * a.thickness(), s = 0.5 * b.thickness();  // the bounding radius holds the facets too
+  const Vec3 apart = a.centre() - b.centre();
+  const double d = apart.norm(), depth = r + s - d;
+  if (!(depth > 0)) return;
+  overlap.depth = depth;
+  if (d <= std::abs(r - s)) {  // one inside the other
+    overlap.point = r < s ? a.centre() : b.centre();
+    overlap.volume = 4.0 / 3.0 * kPi * std::pow(std::min(r, s), 3);
+    return;
+  }
+  overlap.point = b.centre() + (s - 0.5 * depth) / d * apart;
+  overlap.volume = kPi * depth * depth * (d * d + 2 * d * (r + s) - 3 * (r - s) * (r - s)) / (12 * d);
+}
+
 Overlap between(const Body& a, const Body& b, const Pair& pair) {
   Overlap overlap{pair.first, pair.second, 0, 0, 0, Vec3::Zero()};
-  if (a.solid().convex && b.solid().convex) {
+  if (sphere(a) && sphere(b)) {
+    between_spheres(a, b, overlap);
+  } else if (a.solid().convex && b.solid().convex) {
     if (const auto p = penetration(a, b)) {
       overlap.depth = p->depth;
       overlap.point = p->point;

@@ -26,14 +26,6 @@ void use_threads(int wanted) {
   set_threads(wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
-PackResult pack(const Scene& scene, const Watch& watch, std::span<const std::byte> state) {
-  if (scene.method == "mesh") return pack_mesh(scene, watch, state);
-  if (packs_on_lattice(scene.method)) return pack_lattice(scene, watch, state);
-  throw InputError(scene.case_file + ": method", '"' + scene.method + '"',
-                   "\"mesh\", \"digipac\", \"digicgp\" or \"digidem\" in this version",
-                   "set method = \"mesh\"");
-}
-
 int pack_into(const ResultFolder& folder, const Scene& scene, std::span<const std::byte> state, bool quiet) {
   ProgressLine line(quiet);
   Watch watch;

@@ -18,11 +18,11 @@ void general_keys(Fields& f, CaseRecord& r) {
          r.folder);
   f.text({.name = "name", .meaning = "of the case; default: the file's name"}, r.name);
   f.choice({.name = "method",
-            .meaning =
-                "how to pack: mesh = rigid bodies with penalty contact; on a lattice of voxels, digipac = at "
-                "random, digicgp = guided by collisions, "
-                "digidem = by forces between voxels"},
-           r.method, {"mesh", "digipac", "digicgp", "digidem"});
+            .meaning = "how to pack: mesh = rigid bodies with penalty contact; spheres = the same for "
+                       "spheres only, faster; on a lattice of voxels, digipac = at "
+                       "random, digicgp = guided by collisions, "
+                       "digidem = by forces between voxels"},
+           r.method, {"mesh", "spheres", "digipac", "digicgp", "digidem"});
   f.choice(
       {.name = "kernel", .meaning = "contact kernel; auto = the fastest exact one that the shapes allow"},
       r.kernel, {"auto", "sphere", "cylinder", "field"});

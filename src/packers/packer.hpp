@@ -51,9 +51,15 @@ struct PackResult {
   bool stopped = false;  // by Watch::stop; the last checkpoint continues it
 };
 
+/// By the scene's method.
+PackResult pack(const Scene& scene, const Watch& watch, std::span<const std::byte> state = {});
+
 /// Rigid bodies with penalty contact. `state` continues from a checkpoint of the same scene, bit for bit.
 /// Throws InputError for a scene that cannot be packed as given.
 PackResult pack_mesh(const Scene& scene, const Watch& watch, std::span<const std::byte> state = {});
+
+/// Spheres only, of any sizes: the same physics with what spheres make simpler. `state` as above.
+PackResult pack_spheres(const Scene& scene, const Watch& watch, std::span<const std::byte> state = {});
 
 /// Pellets and container in cells of a lattice: methods digipac, digicgp and digidem. `state` as above.
 /// Throws InputError also for pellets too thin, containers that close and lattices too large at this voxel

@@ -82,7 +82,7 @@ inline Course run(Scene s, double duration, double interval = 0) {
   watch.snapshot = [&](const Snapshot& shot) {
     out.frames.push_back({shot.time, *shot.pellets, shot.energies, shot.elastic});
   };
-  out.result = pack_mesh(s, watch);
+  out.result = pack(s, watch);
   return out;
 }
 

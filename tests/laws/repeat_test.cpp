@@ -28,31 +28,44 @@ Scene pour() {
   return s;
 }
 
-class WithThreads : public testing::Test {
+/// Two kinds of spheres, many enough for several chunks.
+Scene sphere_pour() {
+  Scene s = pour();
+  s.method = "spheres";
+  s.pellets = {{make_sphere("small", 1e-3), kDensity, 0.9}, {make_sphere("large", 1.8e-3), kDensity, 0.1}};
+  s.pellet_contact.friction = 0.8;
+  s.pellet_contact.stiffness = s.wall_contact.stiffness = 200;
+  s.feed.count = 700;
+  s.feed.kind = FeedKind::pour;
+  s.feed.per_layer = 40;
+  s.feed.interval = 0.012;
+  return s;
+}
+
+class SameBed : public testing::TestWithParam<Scene (*)()> {
  protected:
   void TearDown() override { set_threads(1); }
+  static PackResult packed() { return pack(GetParam()(), {}); }
 };
 
-using SameBed = WithThreads;
-
-TEST_F(SameBed, ForOneTwoAndFourThreads) {
+TEST_P(SameBed, ForOneTwoAndFourThreads) {
   std::vector<std::string> hashes;
   for (const int count : {1, 2, 4}) {
     set_threads(count);
-    hashes.push_back(bed_hash(pack_mesh(pour(), {}).bed));
+    hashes.push_back(bed_hash(packed().bed));
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
 }
 
-TEST_F(SameBed, OnlyForTheSameSeed) {
-  Scene other = pour();
+TEST_P(SameBed, OnlyForTheSameSeed) {
+  Scene other = GetParam()();
   other.seed = 2;
-  EXPECT_NE(bed_hash(pack_mesh(pour(), {}).bed), bed_hash(pack_mesh(other, {}).bed));
+  EXPECT_NE(bed_hash(packed().bed), bed_hash(pack(other, {}).bed));
 }
 
 /// Stops at the snapshot number `at` and continues from the checkpoint with `count` threads.
-PackResult interrupted(int at, int count) {
+PackResult interrupted(const Scene& scene, int at, int count) {
   std::atomic<bool> stop{false};
   std::vector<std::byte> state;
   int shots = 0;
@@ -60,25 +73,28 @@ PackResult interrupted(int at, int count) {
   watch.stop = &stop;
   watch.snapshot = [&](const Snapshot&) { stop = ++shots >= at; };
   watch.checkpoint = [&](std::span<const std::byte> bytes) { state.assign(bytes.begin(), bytes.end()); };
-  const PackResult first = pack_mesh(pour(), watch);
+  const PackResult first = pack(scene, watch);
   EXPECT_TRUE(first.stopped);
   EXPECT_FALSE(state.empty());
   set_threads(count);
-  const PackResult second = pack_mesh(pour(), {}, state);
+  const PackResult second = pack(scene, {}, state);
   EXPECT_FALSE(second.stopped);
   set_threads(1);
   return second;
 }
 
-TEST_F(SameBed, WhenStoppedAtThreePointsAndContinued) {
-  const PackResult whole = pack_mesh(pour(), {});
+TEST_P(SameBed, WhenStoppedAtThreePointsAndContinued) {
+  const PackResult whole = packed();
   for (const int at : {2, 11, 26}) {  // while the first layer falls, while feeding, at the end
-    const PackResult continued = interrupted(at, at == 11 ? 2 : 1);
+    const PackResult continued = interrupted(GetParam()(), at, at == 11 ? 2 : 1);
     EXPECT_EQ(bed_hash(continued.bed), bed_hash(whole.bed)) << at;
     EXPECT_EQ(continued.record.time.steps, whole.record.time.steps) << at;
     EXPECT_EQ(continued.record.energy.damped, whole.record.energy.damped) << at;  // the ledger goes on too
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, SameBed, testing::Values(&pour, &sphere_pour),
+                         [](const auto& of) { return of.index == 0 ? "Meshes" : "Spheres"; });
 
 }  // namespace
 }  // namespace packbed

@@ -10,10 +10,6 @@
 namespace packbed::lattice {
 namespace {
 
-void add_line(RunRecord& record, const char* name, bool passed, const std::string& finding) {
-  record.audit.push_back({name, passed, finding});
-}
-
 void audit_pellets(RunRecord& record, const State& state, const Feeder& feeder) {
   record.pellets.asked = feeder.asked();
   record.pellets.fed = feeder.fed();
@@ -60,19 +56,8 @@ void audit_rest(RunRecord& record, const Model& model, const State& state) {
 
 }  // namespace
 
-PackedBed bed_of_scene(const Scene& scene) {
-  PackedBed bed;
-  for (const PelletKind& pellet : scene.pellets) {
-    bed.shapes.push_back(pellet.shape);
-    bed.densities.push_back(pellet.density);
-  }
-  bed.container = scene.container;
-  bed.provenance = {scene.case_text, scene.case_file, PACKBED_VERSION, scene.method, "cells", scene.seed};
-  return bed;
-}
-
 PackedBed bed_of(const Model& model, const State& state) {
-  PackedBed bed = bed_of_scene(*model.scene);
+  PackedBed bed = bed_of_scene(*model.scene, "cells");
   bed.pellets = pellets_of(model, state);
   return bed;
 }

@@ -2,13 +2,12 @@
 // What a run tells at its end: the bed, its grid, and the audit.
 #include "bed/packed_bed.hpp"
 #include "bed/run_record.hpp"
+#include "packers/account.hpp"
 #include "packers/feed.hpp"
 #include "packers/lattice/model.hpp"
 
 namespace packbed::lattice {
 
-/// Shapes, container and provenance; no pellets yet.
-PackedBed bed_of_scene(const Scene& scene);
 PackedBed bed_of(const Model& model, const State& state);
 /// The bed's cells in the frame of frame_for(bed, voxel).
 VoxelGrid grid_of(const PackedBed& bed, const Model& model, const State& state);

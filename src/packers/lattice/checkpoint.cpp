@@ -1,6 +1,6 @@
 #include "packers/lattice/checkpoint.hpp"
 
-#include "packers/archive.hpp"
+#include "packers/checkpoint.hpp"
 
 namespace packbed::lattice {
 namespace {
@@ -19,23 +19,11 @@ void visit(Archive& io, S& s) {
 }  // namespace
 
 std::vector<std::byte> save(const State& state, const Feeder& feeder) {
-  ArchiveWriter writer;
-  writer(kFormat);
-  visit(writer, state);
-  writer(feeder.save());
-  return std::move(writer.bytes);
+  return checkpoint_of(kFormat, feeder, [&](ArchiveWriter& io) { visit(io, state); });
 }
 
 void restore(std::span<const std::byte> bytes, const Model& model, State& state, Feeder& feeder) {
-  ArchiveReader reader(bytes, "lattice packing");
-  std::uint64_t format = 0;
-  reader(format);
-  if (format != kFormat) reader.fail();
-  visit(reader, state);
-  std::vector<std::byte> feed;
-  reader(feed);
-  if (!reader.at_end()) reader.fail();
-  feeder.restore(feed);
+  restore_checkpoint(bytes, "lattice packing", kFormat, feeder, [&](ArchiveReader& io) { visit(io, state); });
   StampMaker maker(model.frame.pitch, model.largest);
   for (std::size_t i = 0; i < state.size(); ++i) {
     state.stamp.push_back(

@@ -1,4 +1,8 @@
 #include "packers/lattice/dem_run.hpp"
+#include "packers/checkpoint.hpp"
+#include "packers/lattice/account.hpp"
+#include "packers/lattice/dem.hpp"
+#include "packers/run_watch.hpp"
 
 #include <fmt/format.h>
 
@@ -6,10 +10,6 @@
 #include <cmath>
 
 #include "math/threads.hpp"
-#include "packers/archive.hpp"
-#include "packers/lattice/account.hpp"
-#include "packers/lattice/dem.hpp"
-#include "packers/lattice/run_watch.hpp"
 
 namespace packbed::lattice {
 namespace {
@@ -32,15 +32,7 @@ void visit(Archive& io, S& s) {
 }
 
 void restore(std::span<const std::byte> bytes, const DemModel& model, DemState& state, Feeder& feeder) {
-  ArchiveReader reader(bytes, "digidem packing");
-  std::uint64_t format = 0;
-  reader(format);
-  if (format != kFormat) reader.fail();
-  visit(reader, state);
-  std::vector<std::byte> feed;
-  reader(feed);
-  if (!reader.at_end()) reader.fail();
-  feeder.restore(feed);
+  restore_checkpoint(bytes, "digidem packing", kFormat, feeder, [&](ArchiveReader& io) { visit(io, state); });
   StampMaker maker(model.base.frame.pitch, model.base.largest);
   for (std::size_t i = 0; i < state.size(); ++i)
     state.stamp.push_back(maker.make(*model.base.kind(state.bodies.kind[i]).shape, state.scale[i],
@@ -72,13 +64,13 @@ struct Run {
 
   std::int64_t steps() const { return state.steps; }
   double time() const { return state.time; }
-  std::vector<Pellet> pellets() const { return pellets_of(state); }
+  double step_time() const { return model.step; }
+  Snapshot snapshot(std::vector<Pellet>& pellets) const {
+    pellets = pellets_of(state);
+    return still_of(time(), pellets);
+  }
   std::vector<std::byte> save() const {
-    ArchiveWriter writer;
-    writer(kFormat);
-    visit(writer, state);
-    writer(feeder.save());
-    return std::move(writer.bytes);
+    return checkpoint_of(kFormat, feeder, [&](ArchiveWriter& io) { visit(io, state); });
   }
   Progress progress() const {
     Progress p;
@@ -133,7 +125,7 @@ void audit(RunRecord& record, const DemModel& model, const DemState& state, cons
 }
 
 PackedBed bed_of(const DemModel& model, const DemState& state) {
-  PackedBed bed = bed_of_scene(*model.base.scene);
+  PackedBed bed = bed_of_scene(*model.base.scene, "cells");
   bed.pellets = pellets_of(state);
   for (const Touch& t : state.touches)
     if (t.depth > 0)

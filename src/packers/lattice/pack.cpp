@@ -5,8 +5,8 @@
 #include "packers/lattice/account.hpp"
 #include "packers/lattice/checkpoint.hpp"
 #include "packers/lattice/dem_run.hpp"
-#include "packers/lattice/run_watch.hpp"
 #include "packers/lattice/step.hpp"
+#include "packers/run_watch.hpp"
 
 namespace packbed {
 namespace {
@@ -29,7 +29,11 @@ struct Run {
 
   std::int64_t steps() const { return state.steps; }
   double time() const { return time_of(model, state); }
-  std::vector<Pellet> pellets() const { return pellets_of(model, state); }
+  double step_time() const { return model.step_time; }
+  Snapshot snapshot(std::vector<Pellet>& pellets) const {
+    pellets = pellets_of(model, state);
+    return still_of(time(), pellets);
+  }
   std::vector<std::byte> save() const { return lattice::save(state, feeder); }
   Progress progress() const {
     Progress p;

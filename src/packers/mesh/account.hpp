@@ -3,19 +3,14 @@
 // knowledge.
 #include "bed/packed_bed.hpp"
 #include "bed/run_record.hpp"
+#include "packers/account.hpp"
 #include "packers/feed.hpp"
 #include "packers/mesh/model.hpp"
 #include "packers/packer.hpp"
 
 namespace packbed::mesh {
 
-/// Energy books now [J]. input = kinetic + potential + elastic + damped + rubbed + removed, but for the error
-/// of stepping.
-struct Energy {
-  double input = 0, kinetic = 0, potential = 0, elastic = 0, damped = 0, rubbed = 0, removed = 0;
-  double error() const;  // |unaccounted| / input
-};
-/// Call with airborne bodies brought to the present time and accounts settled.
+/// The books now. Call with airborne bodies brought to the present time and accounts settled.
 Energy energy_of(const Model& model, const State& state);
 
 PackedBed bed_of(const Scene& scene, const Model& model, const State& state);

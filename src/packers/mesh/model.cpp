@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/error.hpp"
+#include "packers/expect.hpp"
 
 namespace packbed::mesh {
 namespace {
@@ -54,17 +55,6 @@ std::vector<Kind> make_kinds(const Scene& scene) {
   return kinds;
 }
 
-/// Highest speed that a pellet can have when it lands [m/s].
-double landing_speed(const Scene& scene) {
-  double fall = scene.feed.drop_height, speed = scene.feed.speed;
-  for (const PlacedPellet& p : scene.feed.placed) {
-    const double radius = scene.pellets[p.kind].shape->bounding_radius;
-    fall = std::max(fall, p.pose.position.z());
-    speed = std::max(speed, p.velocity.norm() + radius * p.spin.norm());
-  }
-  return std::sqrt(speed * speed + 2.0 * scene.gravity.norm() * std::max(0.0, fall));
-}
-
 /// k from "the hardest impact of one pellet on a wall may overlap by so much".
 double find_stiffness(const Scene& scene, const ContactLaw& law, const std::vector<Kind>& kinds) {
   if (law.stiffness > 0) return law.stiffness;
@@ -89,17 +79,6 @@ double shortest_contact(const Model& model) {
   const double pellets = std::sqrt(0.5 * mass / model.pellet_law.stiffness);
   const double wall = std::sqrt(mass / model.wall_law.stiffness);
   return kPi * std::min(pellets, wall);
-}
-
-double expected_time(const Scene& scene) {
-  if (scene.stepping.duration > 0) return scene.stepping.duration;
-  const double g = std::max(1e-9, scene.gravity.norm());
-  const double fall = std::sqrt(2.0 * std::max(0.0, scene.feed.drop_height) / g);
-  const double layers = scene.feed.kind == FeedKind::placed
-                            ? 0.0
-                            : std::ceil(static_cast<double>(scene.feed.count.value_or(1000)) /
-                                        std::max(1, scene.feed.per_layer));
-  return layers * scene.feed.interval + fall + 0.3;  // and some time to settle
 }
 
 }  // namespace

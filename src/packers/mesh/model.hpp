@@ -12,6 +12,7 @@
 #include "contact/law.hpp"
 #include "dynamics/bodies.hpp"
 #include "dynamics/neighbours.hpp"
+#include "packers/rest_watch.hpp"
 
 namespace packbed::mesh {
 
@@ -115,14 +116,8 @@ struct State {
   std::vector<std::uint32_t> awake;  // ascending
   double next_landing = 0;           // [s]
   std::uint8_t search_due = 1;
-  // rest: the present watch, and what the last one found
-  double rest_since = 0;          // [s]
-  std::vector<Vec3> rest_anchor;  // [m]
-  std::uint8_t at_rest = 0;
-  std::uint8_t last_watch = 0;  // windows so far with everything awake, to see whether it stays at rest
-  double rest_speed = 0, rest_force = 0,
-         rest_drift = 0;         // [m/s], fraction of the weight, fraction of the size
-  std::int32_t rollers = 0;      // pellets that drifted by more than the limit over the last window
+  RestWatch rest;
+  std::uint8_t last_watch = 0;   // windows so far with everything awake, to see whether it stays at rest
   std::uint8_t waited = 0;       // feeding has had to wait for room
   std::int64_t snapshots = 0;    // taken so far
   double wall_s = 0, cpu_s = 0;  // spent before the last checkpoint

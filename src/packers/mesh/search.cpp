@@ -27,7 +27,7 @@ void enter(const Model& model, State& state, const Pellet& pellet) {
   state.doze.emplace_back();
   state.doze.back().anchor = pellet.pose.position;
   state.doze.back().anchor_rotation = b.rotation[i];
-  state.rest_anchor.push_back(pellet.pose.position);
+  state.rest.anchor.push_back(pellet.pose.position);
   if (b.motion[i] == Motion::airborne) begin_flight(model, state, i);
   if (!pellet.fixed)
     state.ledger.input +=

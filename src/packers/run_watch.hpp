@@ -1,16 +1,20 @@
 #pragma once
-// How the run of a lattice packer is watched: progress, checkpoints and snapshots when they are due.
-#include "math/clock.hpp"
-#include "packers/packer.hpp"
+// How a run is watched, whatever packs: progress, checkpoints and snapshots when they are due.
+#include <algorithm>
 
-namespace packbed::lattice {
+#include "math/clock.hpp"
+#include "packers/feed.hpp"
+#include "packers/packer.hpp"
+#include "packers/rest_watch.hpp"
+
+namespace packbed {
 
 class RunWatch {
  public:
   RunWatch(const Watch& watch, const OutputWish& output) : watch_(watch), output_(output) {}
 
-  /// Run offers steps, time(), progress(), pellets(), save(), and the counters snapshots, wall_s and cpu_s of
-  /// its state; nothing that is packed changes.
+  /// Run offers steps(), time(), step_time(), progress(), snapshot(pellets), save(), and the counters
+  /// snapshots, wall_s and cpu_s of its state; nothing that is packed changes.
   template <class Run>
   void look(Run& run) {
     show(run);
@@ -54,13 +58,8 @@ class RunWatch {
   void show(Run& run) {
     const double interval = output_.trajectory_interval;
     if (!watch_.snapshot || !(interval > 0)) return;
-    if (run.time() < interval * static_cast<double>(run.state.snapshots) * (1 - 1e-9)) return;
-    const std::vector<Pellet> pellets = run.pellets();
-    Snapshot shot;
-    shot.time = run.time();
-    shot.pellets = &pellets;
-    shot.energies.resize(pellets.size());
-    watch_.snapshot(shot);
+    if (run.time() + 0.5 * run.step_time() < interval * static_cast<double>(run.state.snapshots)) return;
+    watch_.snapshot(run.snapshot(pellets_));
     ++run.state.snapshots;
   }
 
@@ -68,7 +67,29 @@ class RunWatch {
   const OutputWish& output_;
   double wall_start_ = wall_seconds(), cpu_start_ = cpu_seconds();
   double shown_ = 0, saved_ = wall_start_;
+  std::vector<Pellet> pellets_;  // of the last snapshot
 };
+
+/// "settling", or "watching" when rest was found and is asked for again, and what is still too large for
+/// rest.
+std::string settling_text(const Stepping& limits, const RestWatch& rest, bool watching);
+
+/// Of a run by simulated time.
+template <class State>
+Progress progress_of(const State& state, double expected_time, const Stepping& stepping, const Feeder& feeder,
+                     bool watching = false) {
+  Progress p;
+  p.simulated_s = state.time;
+  p.fed = feeder.fed();
+  p.asked = feeder.asked();
+  p.phase = feeder.done()      ? settling_text(stepping, state.rest, watching)
+            : feeder.waiting() ? "waiting for room"
+                               : "feeding";
+  // the bed grows as it is fed, and so does the price of a step: work goes like the square of the time
+  const double x = expected_time > 0 ? std::min(1.0, state.time / expected_time) : 0.0;
+  p.fraction = x * x;
+  return p;
+}
 
 /// Adds the wall-clock time since `last` to a phase.
 inline void add_phase(double& phase, double& last) {
@@ -77,4 +98,4 @@ inline void add_phase(double& phase, double& last) {
   last = now;
 }
 
-}  // namespace packbed::lattice
+}  // namespace packbed

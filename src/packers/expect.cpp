@@ -1,0 +1,29 @@
+#include "packers/expect.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace packbed {
+
+double landing_speed(const Scene& scene) {
+  double fall = scene.feed.drop_height, speed = scene.feed.speed;
+  for (const PlacedPellet& p : scene.feed.placed) {
+    const double radius = scene.pellets[p.kind].shape->bounding_radius;
+    fall = std::max(fall, p.pose.position.z());
+    speed = std::max(speed, p.velocity.norm() + radius * p.spin.norm());
+  }
+  return std::sqrt(speed * speed + 2.0 * scene.gravity.norm() * std::max(0.0, fall));
+}
+
+double expected_time(const Scene& scene) {
+  if (scene.stepping.duration > 0) return scene.stepping.duration;
+  const double g = std::max(1e-9, scene.gravity.norm());
+  const double fall = std::sqrt(2.0 * std::max(0.0, scene.feed.drop_height) / g);
+  const double layers = scene.feed.kind == FeedKind::placed
+                            ? 0.0
+                            : std::ceil(static_cast<double>(scene.feed.count.value_or(1000)) /
+                                        std::max(1, scene.feed.per_layer));
+  return layers * scene.feed.interval + fall + 0.3;  // and some time to settle
+}
+
+}  // namespace packbed

@@ -1,0 +1,155 @@
+#include "packers/spheres/account.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "packers/spheres/step.hpp"
+
+namespace packbed::spheres {
+namespace {
+
+Vec3 vec(const Quad& q) {
+  return {q.x, q.y, q.z};
+}
+
+/// All listed contacts as they are now; nothing moves on.
+struct Contacts {
+  std::vector<SphereContact> pairs, walls;
+};
+Contacts contacts_of(const Model& model, State& state) {
+  Spheres& s = state.spheres;
+  SphereView view = view_of(s);
+  view.ahead = view.velocity;  // both are those of the end of the step now
+  Contacts out{std::vector<SphereContact>(state.pairs.pair.size()),
+               std::vector<SphereContact>(state.walls.pair.size())};
+  SphereTally unused;
+  touch_spheres(model.pellet_law, view, 0.0, state.pairs.pair, state.pairs.memory_from(0), unused,
+                out.pairs.data());
+  touch_walls(model.wall_law, view, 0.0, model.walls, state.walls.pair, state.walls.memory_from(0), unused,
+              out.walls.data());
+  return out;
+}
+
+PelletEnergy energy_of(const Model& model, const Spheres& s, std::size_t i) {
+  const Quad &v = s.velocity[i], &w = s.spin[i];
+  if (!(v.w > 0)) return {};
+  return {0.5 * vec(v).squaredNorm() / v.w, 0.5 * vec(w).squaredNorm() / w.w,
+          -model.gravity.dot(vec(s.place[i])) / v.w};
+}
+
+double elastic_in(const Contacts& contacts) {
+  double sum = 0;
+  for (const SphereContact& c : contacts.pairs) sum += c.elastic;
+  for (const SphereContact& c : contacts.walls) sum += c.elastic;
+  return sum;
+}
+
+Energy books_of(const Model& model, const State& state, const Contacts& contacts) {
+  Energy e;
+  e.input = state.ledger.input;
+  e.damped = state.ledger.damped;
+  e.rubbed = state.ledger.rubbed;
+  for (std::size_t i = 0; i < state.spheres.size(); ++i) {
+    const PelletEnergy of = energy_of(model, state.spheres, i);
+    e.kinetic += of.translation + of.rotation;
+    e.potential += of.height;
+  }
+  e.elastic = elastic_in(contacts);
+  return e;
+}
+
+void audit_walls(RunRecord& record, const Model& model, const State& state, const Contacts& contacts) {
+  double base = 0, side = 0, weight = 0;
+  for (std::size_t p = 0; p < contacts.walls.size(); ++p)
+    (state.walls.pair[p].wall == 0 ? base : side) += model.up.dot(vec(contacts.walls[p].force));
+  for (const Quad& v : state.spheres.velocity)
+    if (v.w > 0) weight += model.gravity.norm() / v.w;
+  audit_wall_forces(record, base, side, weight, model.container);
+}
+
+}  // namespace
+
+std::vector<Pellet> pellets_of(const State& state) {
+  const Spheres& s = state.spheres;
+  std::vector<Pellet> pellets(s.size());
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    Pellet& p = pellets[s.id[i]];
+    p.id = s.id[i];
+    p.shape = s.kind[i];
+    p.scale = s.scale[i];
+    p.pose.position = vec(s.place[i]);
+    p.velocity = vec(s.velocity[i]);
+    p.spin = vec(s.spin[i]);
+    p.fixed = !(s.velocity[i].w > 0);
+  }
+  return pellets;
+}
+
+PackedBed bed_of(const Scene& scene, const Model& model, State& state) {
+  PackedBed bed = bed_of_scene(scene, "sphere");
+  bed.pellets = pellets_of(state);
+  const Contacts contacts = contacts_of(model, state);
+  const Spheres& s = state.spheres;
+  // the point lies in the middle of the overlap, on the line along which the overlap is measured
+  for (std::size_t p = 0; p < contacts.pairs.size(); ++p) {
+    const SphereContact& c = contacts.pairs[p];
+    if (!(c.force.w > 0)) continue;
+    const auto [a, b, to] = state.pairs.pair[p];
+    const Vec3 xa = vec(s.place[a]), xb = vec(s.place[b]), normal = (xa - xb).normalized();
+    const Vec3 point = xa - (s.place[a].w - 0.5 * c.force.w) * normal, force = vec(c.force);
+    const bool ascending = s.id[a] < s.id[b];
+    bed.contacts.push_back({std::min(s.id[a], s.id[b]), std::max(s.id[a], s.id[b]), point,
+                            ascending ? force : Vec3(-force), c.force.w});
+  }
+  for (std::size_t p = 0; p < contacts.walls.size(); ++p) {
+    const SphereContact& c = contacts.walls[p];
+    if (!(c.force.w > 0)) continue;
+    const auto [a, w] = state.walls.pair[p];
+    const Vec3 x = vec(s.place[a]), flat = vec(model.walls[w]);
+    const Vec3 normal = flat.squaredNorm() > 0.5 ? flat : Vec3(-x.x(), -x.y(), 0).normalized();
+    bed.contacts.push_back(
+        {s.id[a], kContainer, x - (s.place[a].w - 0.5 * c.force.w) * normal, vec(c.force), c.force.w});
+  }
+  std::sort(bed.contacts.begin(), bed.contacts.end(),
+            [](const Contact& a, const Contact& b) { return a.a != b.a ? a.a < b.a : a.b < b.b; });
+  return bed;
+}
+
+Snapshot snapshot_of(const Model& model, State& state, std::vector<Pellet>& pellets) {
+  pellets = pellets_of(state);
+  Snapshot shot = still_of(state.time, pellets);
+  for (std::size_t i = 0; i < state.spheres.size(); ++i)
+    shot.energies[state.spheres.id[i]] = energy_of(model, state.spheres, i);
+  shot.elastic = elastic_in(contacts_of(model, state));
+  return shot;
+}
+
+void fill_record(RunRecord& record, const Scene& scene, const Model& model, State& state,
+                 const Feeder& feeder) {
+  record.method = scene.method;
+  record.kernel = "sphere";
+  record.seed = scene.seed;
+  record.time.steps = state.steps;
+  record.time.step_s = model.step;
+  record.time.simulated_s = state.time;
+  int within = 0;
+  for (const Quad& x : state.spheres.place) within += inside(model.container, vec(x));
+  const auto& l = state.ledger;
+  const Contacts contacts = contacts_of(model, state);
+  audit_pellets(record, scene, feeder, within);
+  audit_rest(record, model.stepping, state.rest);
+  audit_impacts(record, {l.touches, l.deep, l.very_deep, l.peak});
+  audit_energy(record, books_of(model, state, contacts));
+  audit_walls(record, model, state, contacts);
+  const double steps = std::max(1.0, static_cast<double>(state.steps));
+  record.counters = {{"touches", l.touches},
+                     {"mean_listed_pairs", l.listed / steps},
+                     {"searches", static_cast<double>(state.searches)},
+                     {"stiffness_pellet_N_per_m", model.pellet_law.stiffness},
+                     {"stiffness_wall_N_per_m", model.wall_law.stiffness},
+                     {"modulus_pellet_Pa", model.pellet_law.modulus},
+                     {"modulus_wall_Pa", model.wall_law.modulus}};
+  if (state.waited) record.notes.push_back("feeding had to wait for room above the bed");
+}
+
+}  // namespace packbed::spheres

@@ -1,0 +1,40 @@
+#include "packers/spheres/checkpoint.hpp"
+
+#include "packers/checkpoint.hpp"
+
+namespace packbed::spheres {
+namespace {
+
+constexpr std::uint64_t kFormat = 0x706b6264'53000001;  // changes with any change of State
+
+template <class Archive, class L>
+void visit_list(Archive& io, L& list) {
+  io(list.pair), io(list.first), io(list.slip), io(list.roll), io(list.drag);
+}
+
+/// Names every member once, for writing and for reading.
+template <class Archive, class S>
+void visit(Archive& io, S& s) {
+  io(s.time), io(s.steps);
+  auto& b = s.spheres;
+  io(b.id), io(b.kind), io(b.scale), io(b.place), io(b.velocity), io(b.spin), io(b.ahead), io(b.force),
+      io(b.torque), io(b.listed_at);
+  visit_list(io, s.pairs), visit_list(io, s.walls);
+  io(s.slot), io(s.slot_first), io(s.tally), io(s.search_due), io(s.searches);
+  visit_rest(io, s.rest);
+  io(s.waited), io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.ledger);
+}
+
+}  // namespace
+
+std::vector<std::byte> save(const State& state, const Feeder& feeder) {
+  return checkpoint_of(kFormat, feeder, [&](ArchiveWriter& io) { visit(io, state); });
+}
+
+void restore(std::span<const std::byte> bytes, State& state, Feeder& feeder) {
+  State fresh;
+  restore_checkpoint(bytes, "sphere packing", kFormat, feeder, [&](ArchiveReader& io) { visit(io, fresh); });
+  state = std::move(fresh);
+}
+
+}  // namespace packbed::spheres

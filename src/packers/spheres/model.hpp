@@ -1,0 +1,93 @@
+#pragma once
+// The sphere packer's two records: Model never changes in a run, State is all that does (and all that a
+// checkpoint holds).
+//
+// Spheres stand in memory in the order of a space-filling curve, in fixed chunks. A chunk computes the pairs
+// that its spheres have found; what a pair does to a sphere of another chunk goes into a slot, which that
+// chunk adds later. So the order of every sum is that of the lists, whatever the number of threads.
+#include <cstdint>
+#include <vector>
+
+#include "bed/scene.hpp"
+#include "contact/sphere_pairs.hpp"
+#include "packers/rest_watch.hpp"
+
+namespace packbed::spheres {
+
+struct Kind {
+  double radius = 0;   // of scale 1 [m]
+  double density = 0;  // [kg/m3]
+};
+
+struct Model {
+  std::vector<Kind> kinds;
+  Container container;
+  std::vector<SphereWall> walls;  // flat and round ones; the first is the floor
+  Vec3 gravity = Vec3::Zero(), up = Vec3::UnitZ();
+  SphereLaw pellet_law, wall_law;
+  bool turns = false, rolls = false;  // some law has friction, rolling friction
+  double step = 0;                    // [s]
+  double skin = 0;                    // of the lists, fraction of the radius
+  Stepping stepping;
+  double expected_time = 0;  // of the whole run, for the progress line [s]
+};
+
+/// Throws InputError for a scene that cannot be packed as given.
+Model make_model(const Scene& scene);
+
+/// One entry a sphere, in memory order.
+struct Spheres {
+  std::vector<std::uint32_t> id, kind;
+  std::vector<double> scale;
+  std::vector<Quad> place;          // centre, radius [m]
+  std::vector<Quad> velocity;       // [m/s], inverse mass [1/kg] (0: fixed)
+  std::vector<Quad> spin;           // [rad/s], inverse moment of inertia [1/(kg m2)]
+  std::vector<Quad> ahead;          // velocity at the end of the step by the last known forces
+  std::vector<Quad> force, torque;  // [N], [N m]; entries beyond the spheres are slots
+  std::vector<Quad> listed_at;      // centre at the last search, square of the way that it may go [m], [m2]
+
+  std::size_t size() const { return id.size(); }
+};
+
+inline constexpr std::size_t kChunk = 512;  // spheres
+inline std::size_t chunks_of(std::size_t spheres) {
+  return (spheres + kChunk - 1) / kChunk;
+}
+
+/// Pairs in the order of the spheres that found them: those of sphere i are first[i] to first[i + 1].
+template <class Pair>
+struct List {
+  std::vector<Pair> pair;
+  std::vector<std::uint32_t> first;
+  std::vector<Quad> slip, roll;  // see SphereMemory; empty without friction, without rolling friction
+  std::vector<double> drag;
+
+  SphereMemory memory_from(std::size_t pair_) {
+    return {slip.empty() ? nullptr : slip.data() + pair_, roll.empty() ? nullptr : roll.data() + pair_,
+            drag.data() + pair_};
+  }
+};
+
+struct State {
+  double time = 0;  // simulated [s]
+  std::int64_t steps = 0;
+  Spheres spheres;
+  List<SpherePair> pairs;
+  List<SphereWallPair> walls;
+  // slots, entries of force and torque beyond the spheres: those of sphere i are slot[slot_first[i]] and on
+  std::vector<std::uint32_t> slot, slot_first;
+  std::vector<SphereTally> tally;  // one a chunk, since the last search
+  std::uint8_t search_due = 1;
+  std::int64_t searches = 0;
+  RestWatch rest;  // by pellet id
+  std::uint8_t waited = 0;
+  std::int64_t snapshots = 0;
+  double wall_s = 0, cpu_s = 0;  // spent before the last checkpoint
+  struct {
+    double input = 0, damped = 0, rubbed = 0;  // [J]
+    double peak = 0, touches = 0, deep = 0, very_deep = 0;
+    double listed = 0;  // pairs walked over, added up over all steps
+  } ledger;
+};
+
+}  // namespace packbed::spheres

@@ -1,0 +1,31 @@
+#pragma once
+// One step of the sphere packer and its phases. The timers in the summary carry the names of these functions.
+#include <array>
+#include <string_view>
+
+#include "packers/feed.hpp"
+#include "packers/spheres/model.hpp"
+
+namespace packbed::spheres {
+
+enum Phase : std::size_t { kFeed, kFindPairs, kKickDrift, kTouch, kGatherKick, kRest, kPhases };
+inline constexpr std::array<std::string_view, kPhases> kPhaseName = {"feed",  "find_pairs",  "kick_drift",
+                                                                     "touch", "gather_kick", "rest"};
+using PhaseTimes = std::array<double, kPhases>;  // wall-clock [s]
+
+/// Velocity Verlet with contacts; everything else only when it is due.
+void step(const Model& model, State& state, Feeder& feeder, PhaseTimes& times);
+
+// The phases, in order. Each returns at once when it has nothing to do.
+void feed(const Model& model, State& state, Feeder& feeder);
+void find_pairs(const Model& model, State& state);
+void kick_drift(const Model& model, State& state);
+void touch(const Model& model, State& state);
+void gather_kick(const Model& model, State& state);
+void rest(const Model& model, State& state, const Feeder& feeder);
+
+/// Adds what the chunks have counted since the last search to the ledger, in order.
+void settle_accounts(State& state);
+SphereView view_of(Spheres& spheres);
+
+}  // namespace packbed::spheres
