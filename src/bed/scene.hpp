@@ -23,9 +23,10 @@ struct ContactLaw {
       0;  // of the energy k delta^2 / 2 [N/m]; 0: found from the allowed overlap at the expected speed
   double allowed_overlap =
       0;  // at the hardest impact, fraction of the smallest thickness; used when stiffness is 0
-  double damping_ratio = 0;  // fraction of critical [-] (see damping_from_restitution)
-  double friction = 0;       // Coulomb coefficient [-]
-  bool torsion = true;       // a spring against spinning on a flat touch
+  double damping_ratio = 0;     // fraction of critical [-] (see damping_from_restitution)
+  double friction = 0;          // Coulomb coefficient [-]
+  bool torsion = true;          // a spring against spinning on a flat touch
+  double rolling_friction = 0;  // moment against rolling over R* times the normal force [-]
 };
 
 enum class FeedKind { layers, pour, placed };

@@ -10,9 +10,12 @@
 namespace packbed {
 namespace {
 
-constexpr int kSamples =
-    16;  // a trigonometric quadratic has at most two maxima, never closer than a few samples
+constexpr int kSamples = 16;  // of a trigonometric quadratic, which has at most two maxima
 constexpr double kStep = 2.0 * kPi / kSamples;
+// Two maxima may lie within a step of one sample. A top is then flat: its curvature is below this fraction of
+// what the harmonics could give. Such a top is sampled this many times more finely.
+constexpr double kFlat = 0.2;
+constexpr int kFiner = 8;
 // Half width [rad] under which the ends of an arc come from the Taylor series at its peak: right to a few
 // thousandths of the arc, where d^16 has long vanished.
 constexpr double kNarrow = 0.2;
@@ -63,6 +66,7 @@ void climb(const TrigQuadratic& f, Peak& peak, double step, double low, double h
       peak.phi += step;
       peak.value += step * (rise + step * (0.5 * peak.curvature + step * peak.third / 6.0));
       peak.curvature += step * peak.third;
+      sincos_poly(peak.phi, peak.sine, peak.cosine);  // the feet are walked to from there
       return;
     }
   }
@@ -70,10 +74,16 @@ void climb(const TrigQuadratic& f, Peak& peak, double step, double low, double h
 }
 
 /// An angle beside a peak at which f <= 0, by walking out in steps that turn cosine and sine without a
-/// library call. None within a turn: the peak's own angle. A narrow peak needs none (see arc_round).
+/// library call. None within a turn: the peak's own angle. A narrow peak has its feet near by.
 double foot(const TrigQuadratic& f, const Peak& peak, double side) {
-  if (2.0 * peak.value < -kNarrow * kNarrow * peak.curvature) return peak.phi + side * 1.5 * kNarrow;
-  double c = peak.cosine, s = peak.sine;
+  double c = 0, s = 0;
+  if (2.0 * peak.value < -kNarrow * kNarrow * peak.curvature) {
+    const double near = peak.phi + side * 1.5 * kNarrow;
+    sincos_poly(near, s, c);
+    if (f.at(c, s) <= 0) return near;  // else it is flat on top
+  }
+  c = peak.cosine;
+  s = peak.sine;
   for (int i = 1; i < kSamples; ++i) {
     const double turned = c * kTable.c[1] - side * s * kTable.s[1];
     s = s * kTable.c[1] + side * c * kTable.s[1];
@@ -152,6 +162,34 @@ void part_or_join(const TrigQuadratic& f, const Samples& value, PeakList& peaks)
   }
 }
 
+void add_peak(PeakList& peaks, const Peak& peak) {
+  if (peak.value > 0 && peaks.size < 2)
+    peaks.peak[static_cast<std::size_t>(peaks.size++)] = peak;
+  else
+    peaks.below = std::max(peaks.below, peak.value);
+}
+
+/// Both maxima, where there are two, within a step of a sample.
+void add_close_peaks(const TrigQuadratic& f, double middle, PeakList& peaks) {
+  const auto at = [&](int i) {
+    double s, c;
+    sincos_poly(middle + i * (kStep / kFiner), s, c);
+    return f.at(c, s);
+  };
+  double before = at(-kFiner), here = at(1 - kFiner);
+  for (int i = 1 - kFiner; i < kFiner; ++i) {
+    const double after = at(i + 1);
+    if (here > before && here >= after) {
+      Peak peak;
+      peak.phi = middle + i * (kStep / kFiner);
+      climb(f, peak, 0.0, peak.phi - kStep / kFiner, peak.phi + kStep / kFiner);
+      add_peak(peaks, peak);
+    }
+    before = here;
+    here = after;
+  }
+}
+
 PeakList sampled_peaks(const TrigQuadratic& f) {
   PeakList peaks;
   Samples value;
@@ -160,7 +198,8 @@ PeakList sampled_peaks(const TrigQuadratic& f) {
   value[kSamples + 1] = value[1];
   // how far f may lie above the parabola through three samples: 2 / (3 sqrt 3) h^3 / 6 times its third
   // derivative
-  const double bow = 0.0642 * kStep * kStep * kStep * (std::hypot(f.k1, f.k2) + 4.0 * std::hypot(f.k3, f.k4));
+  const double first = std::hypot(f.k1, f.k2), second = std::hypot(f.k3, f.k4);
+  const double bow = 0.0642 * kStep * kStep * kStep * (first + 4.0 * second);
   for (int i = 0; i < kSamples && peaks.size < 2; ++i) {
     const std::size_t k = static_cast<std::size_t>(i);
     const double before = value[k], here = value[k + 1], after = value[k + 2];
@@ -174,10 +213,10 @@ PeakList sampled_peaks(const TrigQuadratic& f) {
     Peak peak;
     peak.phi = i * kStep;
     climb(f, peak, first_step(f, kTable.c[k], kTable.s[k]), peak.phi - kStep, peak.phi + kStep);
-    if (peak.value > 0)
-      peaks.peak[static_cast<std::size_t>(peaks.size++)] = peak;
+    if (peak.curvature < -kFlat * (first + 2.0 * second))
+      add_peak(peaks, peak);
     else
-      peaks.below = std::max(peaks.below, peak.value);
+      add_close_peaks(f, i * kStep, peaks);
   }
   if (peaks.size == 0 && value[1] > 0) {  // the same all round
     peaks.size = 1;

@@ -1,6 +1,7 @@
 #pragma once
 // From a Touch to forces: normal spring and dashpot along the gradient of delta, Coulomb friction with a
-// tangential spring that remembers, and a torsion spring against spinning on the spot.
+// tangential spring that remembers, a torsion spring against spinning on the spot, and moments against
+// rocking and rolling.
 #include "contact/touch.hpp"
 
 namespace packbed {
@@ -11,6 +12,7 @@ struct LawNumbers {
   double damping_ratio = 0;  // zeta [-]
   double friction = 0;       // mu [-]
   bool torsion = false;
+  double rolling_friction = 0;  // largest moment against rolling, over the normal force times R* [-]
 };
 
 /// Stiffness of the tangential spring over that of the normal one: 2/7 keeps normal and tangential periods of
@@ -27,7 +29,7 @@ struct Spring {
   double drag = 0;               // of the dashpot, along the gradient [N]
   Vec3 friction = Vec3::Zero();  // [N]
   double moment = 0;             // of torsion [N m]
-  Vec3 rocking = Vec3::Zero();   // moment of the dashpots against rocking [N m]
+  Vec3 rocking = Vec3::Zero();   // moment against rocking and rolling [N m]
 };
 
 /// Motion of a against b, as the kernel's Touch sees it.
@@ -38,12 +40,13 @@ struct Approach {
   Vec3 slide = Vec3::Zero();  // velocity of a against b at the contact point, mid step [m/s]
   double turn = 0;            // spin of a against b about the normal, mid step [rad/s]
   Vec3 spin = Vec3::Zero();   // of a against b, mid step [rad/s]
+  double radius = 0;          // R* = Ra Rb / (Ra + Rb), with a wall Ra: arm of rolling friction [m]
 };
 
 struct ContactForce {
   double push = 0;                // multiplies the gradient of Touch: normal force [N]
   Vec3 friction = Vec3::Zero();   // on a, at the contact point [N]
-  Vec3 moment = Vec3::Zero();     // on a, torsion [N m]
+  Vec3 moment = Vec3::Zero();     // on a: torsion, rocking, rolling [N m]
   double elastic = 0;             // energy stored now [J]
   double damped = 0, rubbed = 0;  // energy lost in this step [J]
 };

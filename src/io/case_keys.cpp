@@ -127,6 +127,10 @@ void contact_keys(Fields& f, ContactRecord& r) {
        .range = {.low = 1e-6, .high = 0.2, .why = "more would let pellets pass through each other"}},
       r.allowed_overlap);
   f.flag({.name = "torsion", .meaning = "a spring against spinning on a flat touch"}, r.torsion);
+  f.real({.name = "rolling_friction",
+          .meaning = "moment against rolling, over the normal force times the reduced radius",
+          .range = between(0, 1)},
+         r.rolling_friction);
 }
 
 void placed_keys(Fields& f, PlacedRecord& r) {

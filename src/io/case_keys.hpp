@@ -30,6 +30,7 @@ struct ContactRecord {
   std::optional<double> damping = 0.4, restitution = {};          // one of them
   std::optional<double> stiffness = {}, allowed_overlap = 0.045;  // one of them
   bool torsion = true;
+  double rolling_friction = 0.01;
 };
 
 struct PlacedRecord {

@@ -68,6 +68,7 @@ ContactLaw contact_law(const ContactRecord& r) {
   law.stiffness = r.stiffness.value_or(0);
   law.allowed_overlap = r.allowed_overlap.value_or(0);
   law.torsion = r.torsion;
+  law.rolling_friction = r.rolling_friction;
   return law;
 }
 

@@ -114,6 +114,23 @@ TEST_P(Rolling, SlidesWhereFrictionCannotTurnItFastEnough) {
   EXPECT_NEAR(r.end().spin.y() / (mu * kGravity * std::cos(angle) * kRadius / per_mass * t), 1, 0.01);
 }
 
+// A moment c R* m g against rolling brakes it by its share of c g R* / r, until it stands.
+TEST_P(Rolling, RollingFrictionBrakesEvenlyToAStop) {
+  const double c = 0.05, speed = 0.2;
+  const double reduced = 0.5 * s.pellets[0].shape->equivalent_diameter();
+  set_contact(s, 0.5, 0.3);
+  s.wall_contact.rolling_friction = c;
+  s.gravity = {0, 0, -kGravity};
+  PlacedPellet& roller = put();
+  roller.velocity = {speed, 0, 0};
+  roller.spin = {0, speed / kRadius, 0};
+  const double brake = GetParam().share * c * kGravity * reduced / kRadius, stop = speed / brake;
+  EXPECT_NEAR(run(s, 0.5 * stop).end().velocity.x() / (0.5 * speed), 1, 0.01);
+  const Course r = run(s, 1.5 * stop);
+  EXPECT_LT(r.end().velocity.norm(), 1e-3 * speed);
+  EXPECT_NEAR(r.end().pose.position.x() / (0.5 * speed * stop), 1, 0.02);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Rolling,
                          testing::Values(Roller{"Ball", true, 5.0 / 7}, Roller{"Rod", false, 2.0 / 3}),
                          [](const auto& of) { return of.param.name; });

@@ -42,6 +42,7 @@ std::vector<Kind> make_kinds(const Scene& scene) {
     kind.inertia = pellet.density * shape.inertia;
     kind.bounding_radius = shape.bounding_radius;
     kind.thickness = shape.smallest_thickness;
+    kind.radius = 0.5 * shape.equivalent_diameter();
     kinds.push_back(kind);
   }
   // kinds of different kernels only meet through the general one
@@ -69,7 +70,8 @@ double find_stiffness(const Scene& scene, const ContactLaw& law, const std::vect
 }
 
 LawNumbers find_law(const Scene& scene, const ContactLaw& law, const std::vector<Kind>& kinds) {
-  return {find_stiffness(scene, law, kinds), law.damping_ratio, law.friction, law.torsion};
+  return {find_stiffness(scene, law, kinds), law.damping_ratio, law.friction, law.torsion,
+          law.rolling_friction};
 }
 
 /// Contact time of the stiffest contact: two of the lightest pellets, or one on the wall, face to face.

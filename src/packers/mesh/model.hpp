@@ -25,6 +25,7 @@ struct Kind {
   double mass = 0;                            // [kg]
   Vec3 inertia = Vec3::Zero();                // principal moments [kg m2]
   double bounding_radius = 0, thickness = 0;  // [m]
+  double radius = 0;                          // of the sphere of equal volume [m]
   std::shared_ptr<const FieldBody> field;     // made only for Kernel::field
 };
 

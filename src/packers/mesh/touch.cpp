@@ -37,6 +37,14 @@ void part(Load& load, PairRecord& r) {
   r.elastic = 0;
 }
 
+/// R* of rolling friction.
+double reduced_radius(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t b) {
+  const double of_a = model.kinds[bodies.kind[a]].radius;
+  if (is_container(b)) return of_a;
+  const double of_b = model.kinds[bodies.kind[b]].radius;
+  return of_a * of_b / (of_a + of_b);
+}
+
 double thickness_of(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t b) {
   const double of_a = model.kinds[bodies.kind[a]].thickness;
   return is_container(b) ? of_a : std::min(of_a, model.kinds[bodies.kind[b]].thickness);
@@ -47,7 +55,9 @@ void push(const Model& model, const Bodies& bodies, const BodyPair& pair, const 
   const auto [a, b] = pair;
   const bool wall = is_container(b);
   const LawNumbers& law = wall ? model.wall_law : model.pellet_law;
-  const ContactForce f = resolve(t, law, approach_of(bodies, t, a, b), model.step, r.spring);
+  Approach approach = approach_of(bodies, t, a, b);
+  approach.radius = reduced_radius(model, bodies, a, b);
+  const ContactForce f = resolve(t, law, approach, model.step, r.spring);
   load.force = f.push * t.gradient + f.friction;
   load.torque_a = f.push * t.torque_a + (t.point - bodies.position[a]).cross(f.friction) + f.moment;
   if (!wall)
