@@ -72,7 +72,7 @@ PeakList positive_peaks(const TrigQuadratic& f);
 /// Step of Newton's method, fraction of the half arc, after which the end of an arc is good enough: for a sum
 /// of d^16 that does not reach 1e-16 of its size in the last twentieth of the arc; for an arc that is to be
 /// cut.
-inline constexpr double kWholeArc = 0.05, kCutArc = 1e-4;
+inline constexpr double kWholeArc = 0.05, kCutArc = 2e-3;
 /// The arc round a peak on which f > 0, its ends to the tolerance.
 Arc arc_round(const TrigQuadratic& f, const Peak& peak, double tolerance);
 /// Arcs that belong to both lists; ends keep the names that they have there.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "contact/circle.hpp"
@@ -116,13 +117,17 @@ ArcList arcs_between_caps(const CircleInRod& g) {
 
 /// Half of the least way into the rod from the part of a circle between an end of an arc in the side and one
 /// in the caps: there it leaves the one and comes near the other, and is nearest to both where it is as far
-/// from the one as from the other.
+/// from the one as from the other. Looked for by regula falsi: a few per cent are near enough.
 double way_between(const CircleInRod& g, double in_side, double in_caps) {
+  double by_side = -g.outside(in_side).second, by_caps = g.outside(in_caps).first;  // of side less cap
   double way = 0;
-  for (int i = 0; i < 8; ++i) {
-    const double middle = 0.5 * (in_side + in_caps);
+  for (int i = 0; i < 3; ++i) {
+    const double spread = by_caps - by_side;
+    const double middle =
+        spread > 0 ? in_side - by_side / spread * (in_caps - in_side) : 0.5 * (in_side + in_caps);
     const auto [side, cap] = g.outside(middle);
     (side < cap ? in_side : in_caps) = middle;
+    (side < cap ? by_side : by_caps) = side - cap;
     way = std::max(side, cap);
   }
   return 0.5 * std::max(0.0, way);
@@ -162,12 +167,25 @@ void add_whole(Finding& found, std::uint8_t circle, const Arc& arc) {
   found.add(a);
 }
 
+/// The plane of the circles of one body, seen from the other: the same for all of them.
+struct Plane {
+  Vec3 e1, e2;
+  double sine = 0;    // between the axes
+  double turned = 0;  // angle from the vector that looks share to e1
+
+  Plane(const Vec3& axis, const Vec3& other, const Vec3& wish) {
+    span_plane(axis, other, e1, e2);
+    const double cosine = axis.dot(other);
+    sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    turned = std::atan2(e1.dot(axis.cross(wish)), e1.dot(wish));
+  }
+};
+
 /// Looks at one circle: the arcs that dip in, and how far the rest of it is from that.
-void find_arcs(Finding& found, std::uint8_t circle, const Feature& f, const Vec3& e1) {
+void find_arcs(Finding& found, std::uint8_t circle, const Feature& f, const Plane& plane) {
   const Rod& rod = *f.other;
   const Vec3 w = f.centre - rod.centre, &axis = f.owner->axis;
-  const double z0 = w.dot(rod.axis), cosine = axis.dot(rod.axis);
-  const double reach = f.radius * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  const double z0 = w.dot(rod.axis), reach = f.radius * plane.sine;
   const Vec3 rho = w - z0 * rod.axis;
   const double rho2 = rho.squaredNorm(), distance = std::sqrt(rho2), across = rho.dot(axis);
   // extent of the circle towards the rod's axis: radius sqrt(1 - (m.axis)^2), m = rho / |rho|
@@ -179,10 +197,10 @@ void find_arcs(Finding& found, std::uint8_t circle, const Feature& f, const Vec3
     return;
   }
   const CircleInRod g{w.squaredNorm() + f.radius * f.radius,
-                      2 * f.radius * w.dot(e1),
-                      2 * f.radius * w.dot(axis.cross(e1)),
+                      2 * f.radius * w.dot(plane.e1),
+                      2 * f.radius * w.dot(plane.e2),
                       z0,
-                      f.radius * rod.axis.dot(e1),
+                      f.radius * rod.axis.dot(plane.e1),
                       rod.radius,
                       rod.half_height};
   const TrigQuadratic side = g.side();
@@ -258,6 +276,8 @@ void set_lane(RodArcBatch& batch, int k, const RodArc& arc, const Rod& a, const 
   set(batch.owner, f.owner->axis);
   set(batch.wish, of_a(arc.circle) ? features.wish_a : features.wish_b);
   set(batch.axis, f.other->axis);
+  set(batch.origin, f.other->centre);
+  batch.sign[k] = of_a(arc.circle) ? 1.0 : -1.0;
   batch.radius[k] = f.radius;
   batch.rod_radius[k] = f.other->radius;
   batch.half_height[k] = f.other->half_height;
@@ -270,19 +290,13 @@ void set_lane(RodArcBatch& batch, int k, const RodArc& arc, const Rod& a, const 
   batch.full[k] = arc.full;
 }
 
-/// Adds what a lane has found, seen from the origin of the pair.
-void add_lane(TouchSum<kCurveExponent>& sum, const RodArcBatch& batch, int k, const RodArc& arc, const Rod& a,
-              const Rod& b) {
-  const auto get = [k](const LaneVec& lanes) { return Vec3(lanes.x[k], lanes.y[k], lanes.z[k]); };
-  const Vec3& centre = of_a(arc.circle) ? b.centre : a.centre;
-  const double sign = of_a(arc.circle) ? 1.0 : -1.0;
-  const Vec3 force = sign * get(batch.force), x = get(batch.pressure_x);
-  Pressure pressure{batch.pressure[k], x + batch.pressure[k] * centre, Mat3::Zero()};
-  pressure.xx << batch.xx[k], batch.xy[k], batch.xz[k], batch.xy[k], batch.yy[k], batch.yz[k], batch.xz[k],
-      batch.yz[k], batch.zz[k];
-  pressure.xx += centre * pressure.x.transpose() + x * centre.transpose();
-  sum.add_sums(batch.power[k], force, sign * get(batch.torque) + centre.cross(force), pressure,
-               batch.deepest[k]);
+void add_arcs(TouchSum<kCurveExponent>& sum, const std::array<double, kArcSums>& total, double deepest) {
+  Pressure pressure{
+      total[kPressure], {total[kPressureX], total[kPressureY], total[kPressureZ]}, Mat3::Zero()};
+  pressure.xx << total[kXX], total[kXY], total[kXZ], total[kXY], total[kYY], total[kYZ], total[kXZ],
+      total[kYZ], total[kZZ];
+  sum.add_sums(total[kPower], {total[kForceX], total[kForceY], total[kForceZ]},
+               {total[kTorqueX], total[kTorqueY], total[kTorqueZ]}, pressure, deepest);
 }
 
 /// `gap` further than `gone`, rounded down.
@@ -291,20 +305,17 @@ float later(float gone, double gap) {
 }
 
 /// Looks at one circle afresh: its arcs take the place of those known.
-void look_again(std::uint8_t circle, const Rod& a, const Rod& b, float gone, RodFeatures& features) {
+void look_again(std::uint8_t circle, const Rod& a, const Rod& b, float gone, std::optional<Plane>& plane,
+                RodFeatures& features) {
   const Feature f = circle_of(circle, a, b);
-  Vec3 e1, e2;
-  span_plane(f.owner->axis, f.other->axis, e1, e2);
+  // angles are kept from the vector that all looks share, which e1 has turned away from
+  if (!plane) plane.emplace(f.owner->axis, f.other->axis, of_a(circle) ? features.wish_a : features.wish_b);
   Finding found;
-  find_arcs(found, circle, f, e1);
+  find_arcs(found, circle, f, *plane);
   const auto end = std::remove_if(features.arc.begin(), features.arc.begin() + features.arcs,
                                   [&](const RodArc& arc) { return arc.circle == circle; });
   features.arcs = static_cast<std::uint8_t>(end - features.arc.begin());
   features.until[circle] = later(gone, found.gap);
-  if (found.size == 0) return;
-  // angles are kept from the vector that all looks share, which e1 has turned away from
-  const Vec3& wish = of_a(circle) ? features.wish_a : features.wish_b;
-  const double turned = std::atan2(e1.dot(f.owner->axis.cross(wish)), e1.dot(wish));
   for (std::size_t k = 0; k < found.size; ++k) {
     if (features.arcs == RodFeatures::kMostArcs) {
       features.until[circle] = gone;  // no room: look again next time
@@ -312,8 +323,8 @@ void look_again(std::uint8_t circle, const Rod& a, const Rod& b, float gone, Rod
     }
     RodArc& arc = features.arc[features.arcs++] = found.arc[k];
     if (arc.full) continue;
-    arc.from += turned;
-    arc.to += turned;
+    arc.from += plane->turned;
+    arc.to += plane->turned;
   }
 }
 
@@ -396,8 +407,9 @@ void RodLooks::add(std::uint32_t tag, const Rod& a, const Rod& b, double travell
   Entry& e = pair_[static_cast<std::size_t>(pairs_++)];
   e = {tag, lanes_, travelled, origin, seen_from(origin, a), seen_from(origin, b), &features};
   const auto gone = static_cast<float>(travelled - features.base);
+  std::optional<Plane> plane_a, plane_b;
   for (std::uint8_t k = 0; k < kCircles; ++k)
-    if (gone >= features.until[k]) look_again(k, e.a, e.b, gone, features);
+    if (gone >= features.until[k]) look_again(k, e.a, e.b, gone, of_a(k) ? plane_a : plane_b, features);
   for (std::size_t k = 0; k < features.arcs; ++k, ++lanes_)
     set_lane(batch_[static_cast<std::size_t>(lanes_ / kLanes)], lanes_ % kLanes, features.arc[k], e.a, e.b,
              features);
@@ -413,15 +425,19 @@ Touch RodLooks::result(int i, bool& lost) const {
   const Entry& e = pair_[static_cast<std::size_t>(i)];
   RodFeatures& features = *e.features;
   TouchSum<kCurveExponent> sum(e.origin);
+  std::array<double, kArcSums> total{};
+  double deepest = 0;
   for (std::size_t k = 0; k < features.arcs; ++k) {
-    const int lane = e.lane + static_cast<int>(k);
-    const RodArcBatch& batch = batch_[static_cast<std::size_t>(lane / kLanes)];
+    const int place = e.lane + static_cast<int>(k), lane = place % kLanes;
+    const RodArcBatch& batch = batch_[static_cast<std::size_t>(place / kLanes)];
     RodArc& arc = features.arc[k];
-    arc.from = batch.from[lane % kLanes];
-    arc.to = batch.to[lane % kLanes];
-    if (!(batch.holds[lane % kLanes] > 0)) lost = true;
-    add_lane(sum, batch, lane % kLanes, arc, e.a, e.b);
+    arc.from = batch.from[lane];
+    arc.to = batch.to[lane];
+    if (!(batch.holds[lane] > 0)) lost = true;
+    for (std::size_t q = 0; q < kArcSums; ++q) total[q] += batch.sum[q][lane];
+    deepest = std::max(deepest, static_cast<double>(batch.deepest[lane]));
   }
+  if (features.arcs > 0) add_arcs(sum, total, deepest);
   const double reference = reference_length(e.a, e.b);
   const auto gone = static_cast<float>(e.travelled - features.base);
   float& until = features.until[RodFeatures::kCrossing];

@@ -23,19 +23,18 @@ void follow_normal(Vec3& stretch, const Vec3& normal) {
   if (after > 0) stretch *= std::sqrt(before / after);
 }
 
-void add_friction(ContactForce& out, const LawNumbers& law, const Approach& approach, double step,
+/// c: of the tangential dashpot [N s/m].
+void add_friction(ContactForce& out, const LawNumbers& law, const Approach& approach, double c, double step,
                   const Vec3& normal, double normal_force, Spring& spring) {
   const double k = kTangentialShare * law.stiffness;
-  const double c =
-      approach.inverse_mass > 0 ? 2.0 * law.damping_ratio * std::sqrt(k / approach.inverse_mass) : 0.0;
   const Vec3 slide = approach.slide - approach.slide.dot(normal) * normal;
   follow_normal(spring.stretch, normal);
   const double stored_before = 0.5 * k * spring.stretch.squaredNorm();
   spring.stretch += step * slide;
   Vec3 force = -k * spring.stretch - c * slide;
-  const double limit = law.friction * normal_force, size = force.norm();
-  if (size > limit) {
-    force *= size > 0 ? limit / size : 0.0;
+  const double limit = law.friction * normal_force;
+  if (force.squaredNorm() > limit * limit) {
+    force *= limit / force.norm();
     spring.stretch = -force / k;
   }
   const double stored = 0.5 * k * spring.stretch.squaredNorm();
@@ -45,18 +44,15 @@ void add_friction(ContactForce& out, const LawNumbers& law, const Approach& appr
   spring.friction = force;
 }
 
+/// c: of the tangential dashpot [N s/m].
 void add_torsion(ContactForce& out, const Touch& touch, const LawNumbers& law, const Approach& approach,
-                 double step, const Vec3& normal, double normal_force, Spring& spring) {
+                 double c, double step, const Vec3& normal, double normal_force, Spring& spring) {
   const double r2 = touch.patch_radius * touch.patch_radius;
   const double k = kTangentialShare * law.stiffness * r2;
   if (!(k > 0)) return;
   const double stored_before = 0.5 * k * spring.twist * spring.twist;
   spring.twist += step * approach.turn;
-  const double c =
-      approach.inverse_mass > 0
-          ? 2.0 * law.damping_ratio * r2 * std::sqrt(kTangentialShare * law.stiffness / approach.inverse_mass)
-          : 0.0;
-  double moment = -k * spring.twist - c * approach.turn;
+  double moment = -k * spring.twist - c * r2 * approach.turn;
   const double limit = law.friction * normal_force * touch.patch_radius;  // pressure on a ring of that radius
   if (std::abs(moment) > limit) {
     moment = moment > 0 ? limit : -limit;
@@ -108,8 +104,10 @@ ContactForce resolve(const Touch& touch, const LawNumbers& law, const Approach& 
   if (damping > 0)
     add_rocking(out, touch, law, approach, damping * length * length, step, normal, normal_force, spring);
   if (!(law.friction > 0)) return out;
-  add_friction(out, law, approach, step, normal, normal_force, spring);
-  if (law.torsion) add_torsion(out, touch, law, approach, step, normal, normal_force, spring);
+  // critical damping goes with the root of the stiffness
+  const double tangential = damping * std::sqrt(kTangentialShare);
+  add_friction(out, law, approach, tangential, step, normal, normal_force, spring);
+  if (law.torsion) add_torsion(out, touch, law, approach, tangential, step, normal, normal_force, spring);
   return out;
 }
 

@@ -104,24 +104,33 @@ PACKBED_INLINE End find_end(Track& t, const RodArcBatch& b, const Lanes& cap, co
 }
 
 /// The end moves with the bodies, and the nodes with it: `rate` is what that changes in the sum.
-PACKBED_INLINE void add_end(RodArcBatch& b, const End& end, const LaneVec& e1, const LaneVec& e2,
-                            const Lanes& rate) {
+PACKBED_INLINE void add_end(const RodArcBatch& b, const End& end, const LaneVec& e1, const LaneVec& e2,
+                            const Lanes& rate, LaneVec& force, LaneVec& torque) {
   const LaneVec y = plus(b.centre, times(b.radius, plus(times(end.c, e1), times(end.s, e2))));
   // slope of the depth there: -(y - z axis) / R in the side, -z / h axis in a cap
   const Lanes by_y = end.cap > 0.0 ? Lanes{} : -1.0 / b.rod_radius;
   const Lanes by_axis = end.cap > 0.0 ? -end.z / b.half_height : end.z / b.rod_radius;
   const Lanes steep = size_of(end.slope) - 1e-12 * b.radius;  // a touch that has only just begun has none
   const Lanes k = steep > 0.0 ? -rate / end.slope : Lanes{};
-  b.force = plus(b.force, plus(times(k * by_y, y), times(k * by_axis, b.axis)));
-  b.torque = plus(b.torque, times(k * by_axis, cross(y, b.axis)));
+  force = plus(force, plus(times(k * by_y, y), times(k * by_axis, b.axis)));
+  torque = plus(torque, times(k * by_axis, cross(y, b.axis)));
 }
 
-/// One entry of the sum of rate x x^T.
-PACKBED_INLINE Lanes moment(const RodArcBatch& b, const LaneVec& swing, const LaneVec& e1,
-                            const LaneVec& along1, const LaneVec& e2, const LaneVec& along2,
-                            Lanes LaneVec::*i, Lanes LaneVec::*j) {
-  return b.centre.*i * b.pressure_x.*j + swing.*i * b.centre.*j + e1.*i * along1.*j + e2.*i * along2.*j;
+PACKBED_INLINE void put(RodArcBatch& b, ArcSum first, const LaneVec& v) {
+  b.sum[first] = v.x;
+  b.sum[first + 1] = v.y;
+  b.sum[first + 2] = v.z;
 }
+
+/// The sum of rate x x^T over points x = c + y, where sum rate y = swing and sum rate y y^T = e1 along1^T +
+/// e2 along2^T; x sums up to `total`.
+struct SecondMoment {
+  const LaneVec &c, &total, &swing, &e1, &along1, &e2, &along2;
+
+  PACKBED_INLINE Lanes at(Lanes LaneVec::*i, Lanes LaneVec::*j) const {
+    return c.*i * total.*j + swing.*i * c.*j + e1.*i * along1.*j + e2.*i * along2.*j;
+  }
+};
 
 }  // namespace
 
@@ -192,26 +201,31 @@ PACKBED_WIDE void follow(RodArcBatch& b) {
   b.deepest = deepest;
 
   const Lanes l = b.radius * length, lr = l * b.radius;  // angle between nodes to length
-  b.power = l * power;
+  b.sum[kPower] = l * power;
   const LaneVec swing_side = plus(times(side_c, e1), times(side_s, e2));
-  b.force = plus(times(-l * side, b.centre), plus(times(-lr, swing_side), times(l * axial, b.axis)));
+  LaneVec force = plus(times(-l * side, b.centre), plus(times(-lr, swing_side), times(l * axial, b.axis)));
   const LaneVec lever =
       plus(times(l * axial, b.centre), times(lr, plus(times(axial_c, e1), times(axial_s, e2))));
-  b.torque = cross(lever, b.axis);
-  add_end(b, from, e1, e2, keep * b.radius * by_from);
-  add_end(b, to, e1, e2, keep * b.radius * by_to);
+  LaneVec torque = cross(lever, b.axis);
+  add_end(b, from, e1, e2, keep * b.radius * by_from, force, torque);
+  add_end(b, to, e1, e2, keep * b.radius * by_to, force, torque);
+  put(b, kForceX, times(b.sign, force));
+  put(b, kTorqueX, times(b.sign, plus(torque, cross(b.origin, force))));
 
-  b.pressure = l * rate;
+  const Lanes pressure = l * rate;
   const LaneVec swing = times(lr, plus(times(rate_c, e1), times(rate_s, e2)));
-  b.pressure_x = plus(times(b.pressure, b.centre), swing);
   const LaneVec along1 = times(lr * b.radius, plus(times(rate_cc, e1), times(rate_cs, e2)));
   const LaneVec along2 = times(lr * b.radius, plus(times(rate_cs, e1), times(rate - rate_cc, e2)));
-  b.xx = moment(b, swing, e1, along1, e2, along2, &LaneVec::x, &LaneVec::x);
-  b.yy = moment(b, swing, e1, along1, e2, along2, &LaneVec::y, &LaneVec::y);
-  b.zz = moment(b, swing, e1, along1, e2, along2, &LaneVec::z, &LaneVec::z);
-  b.xy = moment(b, swing, e1, along1, e2, along2, &LaneVec::x, &LaneVec::y);
-  b.xz = moment(b, swing, e1, along1, e2, along2, &LaneVec::x, &LaneVec::z);
-  b.yz = moment(b, swing, e1, along1, e2, along2, &LaneVec::y, &LaneVec::z);
+  const LaneVec centre = plus(b.origin, b.centre), total = plus(times(pressure, centre), swing);
+  b.sum[kPressure] = pressure;
+  put(b, kPressureX, total);
+  const SecondMoment second{centre, total, swing, e1, along1, e2, along2};
+  b.sum[kXX] = second.at(&LaneVec::x, &LaneVec::x);
+  b.sum[kYY] = second.at(&LaneVec::y, &LaneVec::y);
+  b.sum[kZZ] = second.at(&LaneVec::z, &LaneVec::z);
+  b.sum[kXY] = second.at(&LaneVec::x, &LaneVec::y);
+  b.sum[kXZ] = second.at(&LaneVec::x, &LaneVec::z);
+  b.sum[kYZ] = second.at(&LaneVec::y, &LaneVec::z);
 }
 
 }  // namespace packbed

@@ -30,6 +30,28 @@ struct LaneVec {
   Lanes x{}, y{}, z{};
 };
 
+/// What the arcs of a pair add up to, about the origin of the pair (see TouchSum).
+enum ArcSum : std::size_t {
+  kPower,  // of w d^p [m^(p + 1)]
+  kForceX,
+  kForceY,
+  kForceZ,  // of rate * slope, as it pushes the first body
+  kTorqueX,
+  kTorqueY,
+  kTorqueZ,   // of x cross that
+  kPressure,  // of the rate w p d^(p - 1)
+  kPressureX,
+  kPressureY,
+  kPressureZ,  // of rate x
+  kXX,
+  kYY,
+  kZZ,
+  kXY,
+  kXZ,
+  kYZ,  // of rate x x^T
+  kArcSums
+};
+
 struct RodArcBatch {
   // in, one arc a lane; positions are relative to the centre of the cylinder that the circle dips into
   LaneVec centre, owner, wish, axis;  // of the circle; unit axis of its owner; e1 before it is made
@@ -38,12 +60,10 @@ struct RodArcBatch {
   Lanes from{}, to{}, from_cap{}, to_cap{};
   Lanes part{}, span{};  // the part of the arc that is summed: from `part`, fraction `span` of it
   Lanes full{};
+  LaneVec origin;  // centre of the cylinder, seen from the origin of the pair
+  Lanes sign{};    // 1: a circle of the first body; -1: of the second
   // out; `from` and `to` have moved
-  Lanes power{};          // sum of w d^p [m^(p + 1)]
-  LaneVec force, torque;  // sum of rate * slope; of x cross that
-  Lanes pressure{};       // sum of the rate w p d^(p - 1)
-  LaneVec pressure_x;
-  Lanes xx{}, yy{}, zz{}, xy{}, xz{}, yz{};  // sum of rate x x^T
+  std::array<Lanes, kArcSums> sum{};
   Lanes deepest{};
   Lanes holds{};  // 1: the ends were found where they were looked for; 0: the arc has to be looked for afresh
 };
