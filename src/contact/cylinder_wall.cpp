@@ -87,7 +87,8 @@ Touch touch_tube(const Rod& rod, double tube, double& gap) {
     const TrigQuadratic depth = depth_in_tube(rim, flat, tube);
     const PeakList peaks = positive_peaks(depth);
     // (R^2 - rho^2) / 2R is at most the way to the wall
-    if (peaks.size == 0) gap = std::min(gap, -peaks.below);
+    // (an arc that has only just begun may sum up to nothing)
+    gap = std::min(gap, peaks.size == 0 ? -peaks.below : 0.0);
     for (int i = 0; i < peaks.size; ++i)
       add_tube_arc(sum, rim, depth, arc_round(depth, peaks.peak[static_cast<std::size_t>(i)], kWholeArc),
                    centre, tube);

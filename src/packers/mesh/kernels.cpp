@@ -39,7 +39,8 @@ Touch touch_rods(const Rod& a, const Rod& b, double travelled, PairRecord& recor
   gap = separation(a, b);
   if (gap > 0) return {};
   const Touch touch = touch_cylinders(a, b, travelled, record.features);
-  gap = record.features.due() - travelled;
+  // an arc that has only just begun may not hold, and is looked for again at once
+  gap = record.features.known ? record.features.due() - travelled : 0.0;
   return touch;
 }
 
