@@ -375,21 +375,34 @@ double separation(const Rod& a, const Rod& b) {
 }
 
 double RodFeatures::due() const {
-  return base + static_cast<double>(*std::min_element(until.begin(), until.end()));
+  return static_cast<double>(*std::min_element(until.begin(), until.end())) - gone;
 }
 
-Touch touch_cylinders(const Rod& a, const Rod& b, double travelled, RodFeatures& features) {
+void RodFeatures::follow(const Rod& a, const Rod& b) {
+  const Vec3 now = b.centre - a.centre;
+  const double way = (now - apart).norm() + std::hypot(a.radius, a.half_height) * (a.axis - axis_a).norm() +
+                     std::hypot(b.radius, b.half_height) * (b.axis - axis_b).norm();
+  gone += way;
+  apart = now;
+  axis_a = a.axis;
+  axis_b = b.axis;
+}
+
+Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features) {
   Vec3 unused;
   span_plane(a.axis, b.axis, features.wish_a, unused);
   span_plane(b.axis, a.axis, features.wish_b, unused);
-  features.base = travelled;
+  features.apart = b.centre - a.centre;
+  features.axis_a = a.axis;
+  features.axis_b = b.axis;
+  features.gone = 0;
   features.until.fill(0.0F);
   features.arcs = 0;
   features.crossing = false;
   features.known = true;
   thread_local RodLooks looks;
   Touch out;
-  looks.add(0, a, b, travelled, features);
+  looks.add(0, a, b, features);
   looks.finish([&](std::uint32_t, const Touch& touch, bool lost) {
     out = touch;
     if (lost) features.known = false;
@@ -399,14 +412,15 @@ Touch touch_cylinders(const Rod& a, const Rod& b, double travelled, RodFeatures&
 
 Touch touch_cylinders(const Rod& a, const Rod& b) {
   RodFeatures features;
-  return touch_cylinders(a, b, 0.0, features);
+  return touch_cylinders(a, b, features);
 }
 
-void RodLooks::add(std::uint32_t tag, const Rod& a, const Rod& b, double travelled, RodFeatures& features) {
+void RodLooks::add(std::uint32_t tag, const Rod& a, const Rod& b, RodFeatures& features) {
+  features.follow(a, b);
   const Vec3 origin = 0.5 * (a.centre + b.centre);
   Entry& e = pair_[static_cast<std::size_t>(pairs_++)];
-  e = {tag, lanes_, travelled, origin, seen_from(origin, a), seen_from(origin, b), &features};
-  const auto gone = static_cast<float>(travelled - features.base);
+  e = {tag, lanes_, origin, seen_from(origin, a), seen_from(origin, b), &features};
+  const auto gone = static_cast<float>(features.gone);
   std::optional<Plane> plane_a, plane_b;
   for (std::uint8_t k = 0; k < kCircles; ++k)
     if (gone >= features.until[k]) look_again(k, e.a, e.b, gone, of_a(k) ? plane_a : plane_b, features);
@@ -439,7 +453,7 @@ Touch RodLooks::result(int i, bool& lost) const {
   }
   if (features.arcs > 0) add_arcs(sum, total, deepest);
   const double reference = reference_length(e.a, e.b);
-  const auto gone = static_cast<float>(e.travelled - features.base);
+  const auto gone = static_cast<float>(features.gone);
   float& until = features.until[RodFeatures::kCrossing];
   if (features.crossing || gone >= until) {
     const double gap = add_crossing(sum, e.a, e.b, reference);

@@ -42,15 +42,21 @@ struct RodFeatures {
   std::uint8_t arcs = 0;  // that touch
   std::array<RodArc, kMostArcs> arc;
   Vec3 wish_a = Vec3::Zero(), wish_b = Vec3::Zero();  // first vectors of the planes of the circles of a, of b
-  double base = 0;                                    // travel of both bodies from which `until` counts [m]
-  std::array<float, kPlaces> until{};                 // travel at which a place is looked at again [m]
+  // how they stood when last looked at: a moving bed carries its pairs along, and a pellet that rolls about
+  // its own axis changes nothing
+  Vec3 apart = Vec3::Zero();  // centre of b from that of a [m]
+  Vec3 axis_a = Vec3::UnitZ(), axis_b = Vec3::UnitZ();
+  double gone = 0;                     // way that points of one have gone against the other, at most [m]
+  std::array<float, kPlaces> until{};  // `gone` at which a place is looked at again [m]
 
-  /// Travel of both bodies at which the first of the places is due.
+  /// Way that the bodies may still go before the first of the places is due [m].
   double due() const;
+  /// Adds the way from the last look to now.
+  void follow(const Rod& a, const Rod& b);
 };
 
-/// Looks at everything, and tells what it has found. `travelled`: travel of both bodies so far [m].
-Touch touch_cylinders(const Rod& a, const Rod& b, double travelled, RodFeatures& features);
+/// Looks at everything, and tells what it has found.
+Touch touch_cylinders(const Rod& a, const Rod& b, RodFeatures& features);
 Touch touch_cylinders(const Rod& a, const Rod& b);
 
 /// Pairs of which much is known, looked at many at a time.
@@ -60,7 +66,7 @@ class RodLooks {
     return lanes_ + static_cast<int>(RodFeatures::kMostArcs) > kCapacity || pairs_ == kPairs;
   }
   /// features: known; brought up to date.
-  void add(std::uint32_t tag, const Rod& a, const Rod& b, double travelled, RodFeatures& features);
+  void add(std::uint32_t tag, const Rod& a, const Rod& b, RodFeatures& features);
   /// Calls done(tag, touch, lost) for each in the order of adding. lost: an arc was not where it was looked
   /// for; that pair needs a look at everything.
   template <class Done>
@@ -79,7 +85,6 @@ class RodLooks {
   struct Entry {
     std::uint32_t tag = 0;
     int lane = 0;
-    double travelled = 0;
     Vec3 origin;
     Rod a, b;  // seen from there
     RodFeatures* features = nullptr;

@@ -220,10 +220,10 @@ TEST(Cylinders, FollowedPairsGiveTheSameAsAFreshLook) {
   features.resize(pairs.size());
   for (std::uint32_t k = 0; k < pairs.size(); ++k) {
     Random random(6, Stream::test, k + 1);
-    touch_cylinders(pairs[k].a, pairs[k].b, 0.0, features[k]);
+    touch_cylinders(pairs[k].a, pairs[k].b, features[k]);
     moved_a.push_back(moved(pairs[k].a, 1e-6 * random.on_sphere(), 4e-4 * random.on_sphere()));
     if (!features[k].known) continue;
-    looks.add(k, moved_a[k], pairs[k].b, 4e-6, features[k]);
+    looks.add(k, moved_a[k], pairs[k].b, features[k]);
     if (looks.full()) looks.finish(compare);
   }
   looks.finish(compare);

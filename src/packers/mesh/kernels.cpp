@@ -34,13 +34,13 @@ Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std:
   return {};
 }
 
-Touch touch_rods(const Rod& a, const Rod& b, double travelled, PairRecord& record, double& gap) {
+Touch touch_rods(const Rod& a, const Rod& b, PairRecord& record, double& gap) {
   record.features.known = false;
   gap = separation(a, b);
   if (gap > 0) return {};
-  const Touch touch = touch_cylinders(a, b, travelled, record.features);
+  const Touch touch = touch_cylinders(a, b, record.features);
   // an arc that has only just begun may not hold, and is looked for again at once
-  gap = record.features.known ? record.features.due() - travelled : 0.0;
+  gap = record.features.known ? record.features.due() : 0.0;
   return touch;
 }
 
@@ -51,8 +51,8 @@ Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
   return {bodies.position[i], bodies.axis[i], shape.radius, shape.half_height};
 }
 
-Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, double travelled,
-                 PairRecord& record, double& gap) {
+Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, PairRecord& record,
+                 double& gap) {
   const auto [a, b] = pair;
   if (is_container(b)) return touch_wall(model, bodies, a, b, gap);
   const Kind &ka = model.kinds[bodies.kind[a]], &kb = model.kinds[bodies.kind[b]];
@@ -63,7 +63,7 @@ Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair,
     return touch_spheres(xa, ka.shape->radius, xb, kb.shape->radius);
   if (ka.kernel == Kernel::field)
     return touch_field(field_of(model, bodies, a), field_of(model, bodies, b), &gap);
-  return touch_rods(rod_of(model, bodies, a), rod_of(model, bodies, b), travelled, record, gap);
+  return touch_rods(rod_of(model, bodies, a), rod_of(model, bodies, b), record, gap);
 }
 
 }  // namespace packbed::mesh

@@ -80,7 +80,7 @@ double travel_of(const State& state, std::uint32_t p) {
   return travel[a] + (is_container(b) ? 0.0 : travel[b]);
 }
 
-void take(const Model& model, State& state, std::uint32_t p, const Touch& t, double look_at) {
+void take(const Model& model, State& state, std::uint32_t p, const Touch& t, double gap) {
   PairRecord& r = state.pairs.record[p];
   Load& load = state.pairs.load[p];
   if (t.delta > 0) {
@@ -88,20 +88,20 @@ void take(const Model& model, State& state, std::uint32_t p, const Touch& t, dou
     return;
   }
   if (load.delta > 0) part(load, r);
-  state.pairs.look_at[p] = look_at;
+  state.pairs.look_at[p] = travel_of(state, p) + std::max(0.0, gap);
 }
 
-void look_afresh(const Model& model, State& state, std::uint32_t p, double travelled) {
+void look_afresh(const Model& model, State& state, std::uint32_t p) {
   double gap = 0;
-  const Touch t = touch_pair(model, state.bodies, state.pairs.pair[p], travelled, state.pairs.record[p], gap);
-  take(model, state, p, t, travelled + std::max(0.0, gap));
+  const Touch t = touch_pair(model, state.bodies, state.pairs.pair[p], state.pairs.record[p], gap);
+  take(model, state, p, t, gap);
 }
 
 /// The pairs of cylinders that were queued.
 void look_at_rods(const Model& model, State& state, RodLooks& looks) {
   looks.finish([&](std::uint32_t p, const Touch& t, bool lost) {
     if (lost)
-      look_afresh(model, state, p, travel_of(state, p));
+      look_afresh(model, state, p);
     else
       take(model, state, p, t, state.pairs.record[p].features.due());
   });
@@ -114,14 +114,13 @@ void fetch(const PairRecord& record) {
 }
 
 void look(const Model& model, State& state, std::uint32_t p, RodLooks& looks) {
-  const double travelled = travel_of(state, p);
   PairRecord& r = state.pairs.record[p];
   if (!r.features.known) {
-    look_afresh(model, state, p, travelled);
+    look_afresh(model, state, p);
     return;
   }
   const auto [a, b] = state.pairs.pair[p];
-  looks.add(p, rod_of(model, state.bodies, a), rod_of(model, state.bodies, b), travelled, r.features);
+  looks.add(p, rod_of(model, state.bodies, a), rod_of(model, state.bodies, b), r.features);
   if (looks.full()) look_at_rods(model, state, looks);
 }
 
