@@ -3,40 +3,24 @@
 // mesh, no samples on the surface. The features that carry the touch, each integrated where it dips into the
 // other body and nowhere else:
 //
-//     rim in cylinder     four rims; an arc of Gauss nodes between exact end points     edge and face touches
-//     ring in cylinder    two rings inside each cap, four round the side                coaxial caps, level
-//     parallel sides side against side   the common perpendicular of the axes, closed form crossed cylinders
-//
-// The depth of a point in a cylinder of radius R and half height h, at distance rho from the axis and height
-// z:
-//     a = (R^2 - rho^2) / 2R,   b = (h^2 - z^2) / 2h,   depth = a + b - (a^4 + b^4)^(1/4)   for a, b > 0
-// It is smooth inside, never larger than the nearer of the two distances, and of unit slope at the surface
-// (Rvachev's R-function).
+//     rims       four arcs of Gauss nodes between exact end points    edge and face touches
+//     rings      two inside each cap, four round each side            coaxial caps; level parallel sides
+//     crossing   the common perpendicular of the axes, closed form    side against side
 #include <array>
 #include <cstdint>
 
+#include "contact/rod.hpp"
 #include "contact/rod_arcs.hpp"
+#include "contact/rod_circles.hpp"
 #include "contact/touch.hpp"
 
 namespace packbed {
-
-/// A cylinder where it is.
-struct Rod {
-  Vec3 centre;             // [m]
-  Vec3 axis;               // unit
-  double radius = 0;       // [m]
-  double half_height = 0;  // [m]
-};
-
-/// Largest separation over a few directions: a lower bound of the distance, negative where none separates
-/// [m].
-double separation(const Rod& a, const Rod& b);
 
 /// What the looks at a pair have found: all that the next one needs while the bodies stay about where they
 /// are. Each of the places where a pair can touch (twenty circles, and the crossing of the sides) is
 /// looked at again only when the bodies may have gone far enough to change what is known of it.
 struct RodFeatures {
-  static constexpr std::size_t kMostArcs = 24, kCrossing = 20, kPlaces = kCrossing + 1;
+  static constexpr std::size_t kMostArcs = 24, kCrossing = kRodCircles, kPlaces = kCrossing + 1;
   bool known = false;     // all the rest holds
   bool crossing = false;  // of the sides touches
   std::uint8_t arcs = 0;  // that touch
@@ -101,8 +85,5 @@ class RodLooks {
 Touch touch_floor(const Rod& rod, double& gap);
 /// With the outside of an upright tube of inner radius `tube` round the z axis, without end up and down.
 Touch touch_tube(const Rod& rod, double tube, double& gap);
-
-/// Depth and its slope at x, relative to the centre of the cylinder; 0 outside.
-double depth_in_cylinder(const Vec3& x, const Vec3& axis, double radius, double half_height, Vec3& slope);
 
 }  // namespace packbed
