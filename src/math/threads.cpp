@@ -21,7 +21,8 @@ std::unique_ptr<tbb::task_arena> arena;
 // TBB's library is not built with the thread sanitizer, which then takes every hand-over between its workers
 // for a race. Plain threads show the sanitizer what it is there to judge: whether two ranges touch the same
 // data.
-void run_ranges(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+void run_ranges(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body,
+                bool /*uneven*/) {
   const std::size_t ranges = std::min(static_cast<std::size_t>(thread_count), (n + grain - 1) / grain);
   std::vector<std::exception_ptr> failures(ranges);
   const auto run = [&](std::size_t r) {
@@ -40,15 +41,27 @@ void run_ranges(std::size_t n, std::size_t grain, const std::function<void(std::
     if (failure) std::rethrow_exception(failure);
 }
 #else
-void run_ranges(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+void run_ranges(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body,
+                bool uneven) {
+  const tbb::blocked_range<std::size_t> all(0, n, grain);
+  const auto run = [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); };
   arena->execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, n, grain),
-        [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); },
-        tbb::static_partitioner());
+    if (uneven)
+      tbb::parallel_for(all, run, tbb::auto_partitioner());
+    else
+      tbb::parallel_for(all, run, tbb::static_partitioner());
   });
 }
 #endif
+
+void run(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body,
+         bool uneven) {
+  if (n == 0) return;
+  if (!arena || n <= grain)
+    body(0, n);
+  else
+    run_ranges(n, std::max<std::size_t>(1, grain), body, uneven);
+}
 }  // namespace
 
 void set_threads(int count) {
@@ -68,12 +81,12 @@ int threads() {
 
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
-  if (n == 0) return;
-  if (!arena || n <= grain) {
-    body(0, n);
-    return;
-  }
-  run_ranges(n, std::max<std::size_t>(1, grain), body);
+  run(n, grain, body, false);
+}
+
+void parallel_for_uneven(std::size_t n, std::size_t grain,
+                         const std::function<void(std::size_t, std::size_t)>& body) {
+  run(n, grain, body, true);
 }
 
 }  // namespace packbed

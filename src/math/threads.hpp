@@ -1,5 +1,6 @@
 #pragma once
-// Threads inside a phase: a static split of [0, n), so that who computes never changes what is computed.
+// Threads inside a phase: [0, n) is split, and since each index writes its own place, who computes never
+// changes what is computed.
 #include <cstddef>
 #include <functional>
 
@@ -10,8 +11,13 @@ namespace packbed {
 void set_threads(int count);
 int threads();
 
-/// Calls body(begin, end) on disjoint ranges that cover [0, n). Ranges shorter than `grain` are not split.
+/// Calls body(begin, end) on disjoint ranges that cover [0, n), one a thread. Ranges shorter than `grain` are
+/// not split.
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body);
+/// The same where some indices cost far more than others: smaller ranges, and a thread that has none left
+/// takes from another.
+void parallel_for_uneven(std::size_t n, std::size_t grain,
+                         const std::function<void(std::size_t, std::size_t)>& body);
 
 }  // namespace packbed

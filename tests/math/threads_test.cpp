@@ -19,11 +19,13 @@ class Threads : public testing::TestWithParam<int> {
 
 TEST_P(Threads, VisitEachIndexOnce) {
   for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{10000}}) {
-    std::vector<int> visits(n);
-    parallel_for(n, 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) ++visits[i];
-    });
-    EXPECT_EQ(visits, std::vector<int>(n, 1));
+    for (const auto split : {parallel_for, parallel_for_uneven}) {
+      std::vector<int> visits(n);
+      split(n, 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) ++visits[i];
+      });
+      EXPECT_EQ(visits, std::vector<int>(n, 1));
+    }
   }
 }
 

@@ -129,7 +129,7 @@ void look(const Model& model, State& state, std::uint32_t p, RodLooks& looks) {
 void touch(const Model& model, State& state) {
   const std::vector<std::uint32_t>& active = state.pairs.active;
   state.ledger.active += static_cast<double>(active.size());
-  parallel_for(active.size(), 64, [&](std::size_t from, std::size_t to) {
+  parallel_for_uneven(active.size(), 64, [&](std::size_t from, std::size_t to) {
     thread_local RodLooks looks;
     thread_local std::vector<std::uint32_t> due;
     due.clear();
