@@ -78,7 +78,7 @@ struct LatticeRules {
   double rebound = 0.5;               // rebounding probability: 0 never up, 1 up as often as down
   double max_angle = 10 * kPi / 180;  // of one rotation [rad]
   double max_sweep = 3;               // digicgp: way of the farthest point in one rotation, at most [cells]
-  double rotation_share = 0.15;       // of a pellet's steps in which it also tries to rotate
+  double rotation_share = 0.15;       // digipac: of a pellet's steps in which it also tries to rotate
   int interval = 0;           // steps that stand for Feed::interval; 0: what a pellet needs to fall clear
   int rest_window = 200;      // steps
   double rest_sinking = 0.5;  // mean sinking over rest_window under which a bed is at rest [cells]

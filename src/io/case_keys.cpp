@@ -300,7 +300,7 @@ void lattice_keys(Fields& f, LatticeRules& r) {
           .range = above_zero_to(1e3)},
          r.max_sweep);
   f.real({.name = "rotation_share",
-          .meaning = "of a pellet's steps in which it tries to rotate",
+          .meaning = "digipac: of a pellet's steps in which it tries to rotate",
           .range = between(0, 1, "it is a probability")},
          r.rotation_share);
   f.whole({.name = "interval",
