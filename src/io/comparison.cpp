@@ -32,6 +32,10 @@ const Column kColumns[] = {
     {"KS", "orientation_ks", 4, [](const Compared&, const Distances& d) { return d.orientation.distance; }},
     {"KS 5 %", "orientation_ks_limit", 4,
      [](const Compared&, const Distances& d) { return d.orientation.limit_5_percent; }},
+    {"overlap %", "overlap_mean_percent", 2,
+     [](const Compared& b, const Distances&) { return b.record ? 100 * b.record->overlap.rest_mean : kNaN; }},
+    {"largest %", "overlap_largest_percent", 2,
+     [](const Compared& b, const Distances&) { return b.record ? 100 * b.record->overlap.rest_max : kNaN; }},
     {"CPU s", "cpu_s", 1,
      [](const Compared& b, const Distances&) { return b.record ? b.record->time.cpu_s : kNaN; }},
     {"MB", "peak_rss_MB", 0,
@@ -189,7 +193,9 @@ std::string page(const std::vector<Compared>& beds) {
          "in "
          "pellet diameters. KS: largest difference of the two distributions of the angle between pellet axis "
          "and "
-         "vertical; beds of one distribution exceed the limit beside it in one case of twenty.</p>\n" +
+         "vertical; beds of one distribution exceed the limit beside it in one case of twenty. Overlap: of "
+         "the bodies at "
+         "rest, in the mean of the touching pairs and the largest, of the smallest thickness.</p>\n" +
          chart("Packing density along the height", "height / dp", lines_of(beds, &AnalysisResult::axial)) +
          chart("Packing density from the wall", "distance from the wall / dp",
                lines_of(beds, &AnalysisResult::radial)) +
