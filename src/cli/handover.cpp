@@ -24,15 +24,16 @@ constexpr double kSoft[] = {0.2, 0.1};  // contact.allowed_overlap
 /// take for bodies that only lie. Five times as long lets the bodies at the surface drift away.
 constexpr double kParting = 16;
 
-/// The case without its [feed], and with the poses of a file instead.
+/// The case without its [feed] and its sizes, and with the poses (and scales) of a file instead.
 std::string case_from_poses(const std::string& text, const std::string& poses) {
   std::string out;
-  bool feed = false;
+  bool skip = false;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
     const std::string line = text.substr(at, end - at);
-    if (line.starts_with("[")) feed = line.starts_with("[feed]") || line.starts_with("[[feed.");
-    if (!feed) out += line;
+    if (line.starts_with("["))
+      skip = line.starts_with("[feed]") || line.starts_with("[[feed.") || line.starts_with("[pellet.sizes]");
+    if (!skip) out += line;
     at = end;
   }
   return out + fmt::format("\n[feed]\nkind = \"placed\"\ncsv = \"{}\"\n", poses);

@@ -46,8 +46,8 @@ double reduced_radius(const Model& model, const Bodies& bodies, std::uint32_t a,
 }
 
 double thickness_of(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t b) {
-  const double of_a = model.kinds[bodies.kind[a]].thickness;
-  return is_container(b) ? of_a : std::min(of_a, model.kinds[bodies.kind[b]].thickness);
+  const auto of = [&](std::uint32_t i) { return bodies.scale[i] * model.kinds[bodies.kind[i]].thickness; };
+  return is_container(b) ? of(a) : std::min(of(a), of(b));
 }
 
 void push(const Model& model, const Bodies& bodies, const BodyPair& pair, const Touch& t, Load& load,
