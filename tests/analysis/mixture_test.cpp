@@ -56,6 +56,36 @@ TEST(Segregation, OfEqualPelletsDoesNotExist) {
   EXPECT_FALSE(analyse_bed(bed, {}).segregation);
 }
 
+TEST(Mixture, ProfilesOfScaledPelletsAreThoseOfPelletsSoLarge) {
+  PackedBed scaled = test::tube_bed({test::sphere(2e-3), test::cylinder(3e-3, 4e-3)}, 12e-3);
+  PackedBed large = test::tube_bed({test::sphere(1e-3), test::cylinder(1.5e-3, 2e-3)}, 12e-3);
+  Random random(4, Stream::test, 7);
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const double r = 9e-3 * std::sqrt(random.uniform()), angle = random.uniform(0, 2 * kPi);
+    const Vec3 place(r * std::cos(angle), r * std::sin(angle), random.uniform(2e-3, 30e-3));
+    const Quat rotation = random.rotation();
+    test::add(scaled, place, rotation, i % 2);
+    test::add(large, place, rotation, i % 2);
+    scaled.pellets.back().scale = 0.5;
+  }
+  AnalysisWish wish;
+  wish.voxel = 0.25e-3;
+  wish.from_diameters = 1;
+  wish.to_diameters = 8;
+  const AnalysisResult a = analyse_bed(scaled, wish), b = analyse_bed(large, wish);
+  EXPECT_NEAR(a.bulk.diameter_m, b.bulk.diameter_m, 1e-15);
+  const auto expect_same = [](const std::vector<double>& x, const std::vector<double>& y, double within) {
+    ASSERT_EQ(x.size(), y.size());
+    ASSERT_FALSE(x.empty());
+    for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], y[k], within);
+  };
+  expect_same(a.axial.exact, b.axial.exact, 1e-9);
+  expect_same(a.radial.exact, b.radial.exact, 1e-9);
+  expect_same(a.axial.density, b.axial.density, 1e-9);
+  expect_same(a.radial.density, b.radial.density, 1e-9);
+  EXPECT_NEAR(a.overlap->volume, b.overlap->volume, 1e-6 * b.overlap->volume);
+}
+
 TEST(SizeRows, CountWhatIsThereBesideWhatWasAsked) {
   PackedBed bed = test::free_bed({test::sphere(2e-3)});
   for (int i = 0; i < 30; ++i) add_sphere(bed, i % 3 ? 0.5 : 1, {0, 0, 5e-3 * i});
