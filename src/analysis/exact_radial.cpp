@@ -159,7 +159,7 @@ std::vector<double> ring_volumes(const PackedBed& bed, const std::vector<double>
       return;
     }
     if (shape.kind == ShapeClass::sphere) {
-      add_sphere_rings(p.pose.position, bound, radii, z_low, z_high, bins);
+      add_sphere_rings(p.pose.position, shape.radius * p.scale, radii, z_low, z_high, bins);
       return;
     }
     const double reach = shadow_reach(shape, p),

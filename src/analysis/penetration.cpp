@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/sphere_volume.hpp"
-
 namespace packbed {
 namespace {
 
@@ -195,8 +193,6 @@ std::optional<Penetration> penetration(const Body& a, const Body& b) {
 }
 
 double shared_volume(const Body& a, const Body& b, const Penetration& p) {
-  if (is_sphere(a) && is_sphere(b))
-    return sphere_in_sphere(a.bounding_radius(), b.bounding_radius(), (b.centre() - a.centre()).norm());
   constexpr int kRays = 16;
   // Gauss-Legendre on [0, 1], four nodes (Abramowitz & Stegun, 1964, table 25.4)
   constexpr std::array<double, 4> node{0.0694318442029737, 0.3300094782075719, 0.6699905217924281,

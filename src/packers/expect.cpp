@@ -7,6 +7,15 @@
 
 namespace packbed {
 
+std::pair<double, double> scales_of(const Scene& scene, std::uint32_t kind) {
+  if (scene.feed.kind != FeedKind::placed)
+    return {smallest_scale(scene.pellets[kind].sizes), largest_scale(scene.pellets[kind].sizes)};
+  std::vector<SizeClass> placed;
+  for (const PlacedPellet& p : scene.feed.placed)
+    if (p.kind == kind) placed.push_back({p.scale, 1, 0});
+  return {smallest_scale(placed), largest_scale(placed)};
+}
+
 double landing_speed(const Scene& scene) {
   const bool lattice = scene.feed.kind == FeedKind::lattice;
   double fall = lattice ? highest_of_lattice(scene) : scene.feed.drop_height;

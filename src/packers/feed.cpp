@@ -128,8 +128,12 @@ void check_settings(const Scene& scene, double pellet_radius) {
 
 struct Feeder::Plan {
   explicit Plan(const Scene& s) : scene(s), test(s.pellets), room(s.container) {
-    for (const PelletKind& kind : scene.pellets)
-      radius = std::max(radius, kind.shape->bounding_radius * largest_scale(kind.sizes));
+    for (std::uint32_t k = 0; k < scene.pellets.size(); ++k) {
+      Pellet largest;
+      largest.shape = k;
+      largest.scale = largest_scale(scene.pellets[k].sizes);
+      radius = std::max(radius, test.bounding_radius(largest));
+    }
     if (scene.feed.kind == FeedKind::placed) {
       placed = placed_pellets(scene);
       check_placed(scene, test, room, placed);

@@ -13,6 +13,11 @@ FieldPellet field_of(const Model& model, const Bodies& bodies, std::uint32_t i) 
   return {model.kinds[bodies.kind[i]].field.get(), {bodies.position[i], bodies.rotation[i]}, bodies.scale[i]};
 }
 
+/// Of a sphere; its bounding radius holds the facets of its surface too.
+double radius_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
+  return bodies.scale[i] * model.kinds[bodies.kind[i]].shape->radius;
+}
+
 Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t which,
                  double& gap) {
   const Vec3& x = bodies.position[a];
@@ -24,8 +29,8 @@ Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std:
   if (gap > 0) return {};
   switch (kind.kernel) {
     case Kernel::sphere:
-      return floor ? touch_floor(x, bodies.bounding_radius[a])
-                   : touch_tube(x, bodies.bounding_radius[a], tube);
+      return floor ? touch_floor(x, radius_of(model, bodies, a))
+                   : touch_tube(x, radius_of(model, bodies, a), tube);
     case Kernel::cylinder:
       return floor ? touch_floor(rod_of(model, bodies, a), gap)
                    : touch_tube(rod_of(model, bodies, a), tube, gap);
@@ -62,7 +67,7 @@ Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair,
   gap = (xa - xb).norm() - bodies.bounding_radius[a] - bodies.bounding_radius[b];
   if (gap > 0) return {};
   if (ka.kernel == Kernel::sphere && kb.kernel == Kernel::sphere)
-    return touch_spheres(xa, bodies.bounding_radius[a], xb, bodies.bounding_radius[b]);
+    return touch_spheres(xa, radius_of(model, bodies, a), xb, radius_of(model, bodies, b));
   if (ka.kernel == Kernel::field)
     return touch_field(field_of(model, bodies, a), field_of(model, bodies, b), &gap);
   return touch_rods(rod_of(model, bodies, a), rod_of(model, bodies, b), travelled, record, gap);

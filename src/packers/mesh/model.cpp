@@ -33,16 +33,6 @@ Kernel kernel_for(const Scene& scene, const Shape& shape) {
   return Kernel::field;
 }
 
-/// The scales that pellets of a kind will have.
-std::pair<double, double> scales(const Scene& scene, std::uint32_t kind) {
-  if (scene.feed.kind != FeedKind::placed)
-    return {smallest_scale(scene.pellets[kind].sizes), largest_scale(scene.pellets[kind].sizes)};
-  std::vector<SizeClass> placed;
-  for (const PlacedPellet& p : scene.feed.placed)
-    if (p.kind == kind) placed.push_back({p.scale, 1, 0});
-  return {smallest_scale(placed), largest_scale(placed)};
-}
-
 std::vector<Kind> make_kinds(const Scene& scene) {
   std::vector<Kind> kinds;
   for (const PelletKind& pellet : scene.pellets) {
@@ -55,7 +45,7 @@ std::vector<Kind> make_kinds(const Scene& scene) {
     kind.bounding_radius = shape.bounding_radius;
     kind.thickness = shape.smallest_thickness;
     kind.radius = 0.5 * shape.equivalent_diameter();
-    std::tie(kind.smallest, kind.largest) = scales(scene, static_cast<std::uint32_t>(kinds.size()));
+    std::tie(kind.smallest, kind.largest) = scales_of(scene, static_cast<std::uint32_t>(kinds.size()));
     kinds.push_back(kind);
   }
   // kinds of different kernels only meet through the general one
