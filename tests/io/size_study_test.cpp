@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "io/atomic_file.hpp"
+#include "io/case.hpp"
 #include "io/temporary_folder.hpp"
 #include "math/error.hpp"
 
@@ -92,6 +93,20 @@ TEST(SizeStudy, WritesTableLawAndThreeFigures) {
   EXPECT_NE(read_file(folder / "law.csv").find("\nn,0.3"), std::string::npos);
   const std::string table = read_file(folder / "beds.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 7);
+}
+
+TEST(SizeStudy, EveryBedOfTheWoodChipsHasItsCase) {
+  const std::string runs = read_file(PACKBED_SOURCE_DIR "/cases/wood_chips/runs.csv");
+  int full = 0;
+  for (std::size_t at = runs.find("\nfull,"); at != std::string::npos; at = runs.find("\nfull,", at + 1)) {
+    const std::size_t from = at + 6;
+    const std::string set = runs.substr(from, runs.find(',', from) - from);
+    const Scene scene = read_case(PACKBED_SOURCE_DIR "/cases/wood_chips/set_" + set + ".toml");
+    EXPECT_NEAR(scene.pellets[0].asked.smallest, 1e-3 * std::stod(set), 1e-9);
+    EXPECT_EQ(scene.pellets[0].sizes.front().scale, 1);
+    ++full;
+  }
+  EXPECT_EQ(full, 38);  // as many as in the paper
 }
 
 }  // namespace
