@@ -5,6 +5,8 @@
 
 #include "io/case.hpp"
 #include "math/quantity.hpp"
+#include "packers/expect.hpp"
+#include "packers/feed.hpp"
 #include "packers/packer.hpp"
 
 namespace packbed {
@@ -118,6 +120,7 @@ struct Expected {
 double impact_speed(const Scene& s) {
   const double g = s.gravity.norm();
   double speed = 0;
+  if (s.feed.kind == FeedKind::lattice) return landing_speed(s);
   if (s.feed.kind != FeedKind::placed)
     return std::sqrt(2 * g * s.feed.drop_height + s.feed.speed * s.feed.speed);
   for (const PlacedPellet& p : s.feed.placed)
@@ -154,7 +157,8 @@ Expected expect(const Scene& s) {
   const bool placed = s.feed.kind == FeedKind::placed;
   const bool at_once = placed || s.feed.kind == FeedKind::lattice;
   const double feeding = at_once ? 0 : std::ceil(n / s.feed.per_layer - 1) * s.feed.interval;
-  const double fall = std::sqrt(2 * (placed ? expected_height(s) : s.feed.drop_height) / g);
+  const double height = s.feed.kind == FeedKind::lattice ? highest_of_lattice(s) : s.feed.drop_height;
+  const double fall = std::sqrt(2 * (placed ? expected_height(s) : height) / g);
   e.simulated = s.stepping.duration > 0 ? s.stepping.duration
                                         : std::min(s.stepping.max_time, feeding + fall + kSettling);
   e.steps = e.step > 0 ? e.simulated / e.step : 0;
