@@ -9,12 +9,16 @@
 #include "analysis/axial.hpp"
 #include "analysis/bins.hpp"
 #include "analysis/bulk.hpp"
+#include "analysis/coordination.hpp"
+#include "analysis/core.hpp"
 #include "analysis/exact_axial.hpp"
 #include "analysis/exact_radial.hpp"
 #include "analysis/layout.hpp"
 #include "analysis/orientation.hpp"
 #include "analysis/overlap.hpp"
 #include "analysis/radial.hpp"
+#include "analysis/segregation.hpp"
+#include "analysis/size_rows.hpp"
 #include "bed/voxelise.hpp"
 #include "lattice/count.hpp"
 #include "math/clock.hpp"
@@ -134,6 +138,31 @@ void analyse_exact(const PackedBed& bed, const Layout& layout, const std::vector
   exact_axial(bed, layout, overlaps, outside, result);
 }
 
+/// Porosity of the core by every way that the wish and the bed allow.
+void analyse_core(const PackedBed& bed, const AnalysisWish& wish, const CoreRegion& core,
+                  const VoxelGrid* grid, const std::vector<Overlap>& overlaps, AnalysisResult& result) {
+  result.core = start_core(core);
+  if (!(core.volume() > 0)) return;
+  if (wish.exact) result.core->exact = exact_porosity(bed, core, overlaps);
+  if (grid) result.core->voxels = voxel_porosity(*grid, core);
+  if (wish.cell > 0) shoot_cells(bed, core, wish.cell, wish.shots, *result.core);
+}
+
+/// How sizes and contacts are spread.
+void analyse_mixture(const PackedBed& bed, const std::optional<CoreRegion>& core,
+                     const std::vector<Overlap>& overlaps, AnalysisResult& result) {
+  result.sizes = size_rows(bed);
+  result.smallest_m = std::numeric_limits<double>::infinity();
+  for (const Pellet& p : bed.pellets) {
+    const double size = p.scale * bed.shapes[p.shape]->equivalent_diameter();
+    result.smallest_m = std::min(result.smallest_m, size);
+    result.largest_m = std::max(result.largest_m, size);
+  }
+  if (!result.sizes.empty()) result.segregation = segregation(bed);
+  if (!bed.contacts.empty() || result.overlap)
+    result.coordination = coordination(bed, overlaps, result.sizes, core);
+}
+
 }  // namespace
 
 AnalysisResult analyse_bed(const PackedBed& bed, const AnalysisWish& wish, VoxelGrid* grid_out) {
@@ -144,9 +173,9 @@ AnalysisResult analyse_bed(const PackedBed& bed, const AnalysisWish& wish, Voxel
   const Layout layout = lay_out(frame_for(bed, wish.voxel), result.bed_height_m, pellet_diameter(bed, wish),
                                 wall_radius(bed.container), wish);
   start(layout, result);
+  VoxelGrid own;
+  VoxelGrid& grid = grid_out ? *grid_out : own;
   if (wish.voxels) {
-    VoxelGrid own;
-    VoxelGrid& grid = grid_out ? *grid_out : own;
     if (!same_frame(grid.frame, layout.frame)) grid = voxelise(bed, layout.frame);
     result.voxelise_cpu_s = cpu_seconds() - begin;
     analyse_voxels(grid, container_space(bed.container, layout.frame), layout, result);
@@ -158,6 +187,10 @@ AnalysisResult analyse_bed(const PackedBed& bed, const AnalysisWish& wish, Voxel
   }
   if (wish.exact) analyse_exact(bed, layout, overlaps, result);
   if (wish.orientation) result.orientation = orientation(bed);
+  std::optional<CoreRegion> core;
+  if (wish.core) core = core_region(bed.container, result.bed_height_m, core_margin(bed, wish));
+  if (core) analyse_core(bed, wish, *core, wish.voxels ? &grid : nullptr, overlaps, result);
+  analyse_mixture(bed, core, overlaps, result);
   result.bulk.definition = definition_of_density(layout, bed.container, wish.voxels);
   result.analyse_cpu_s = cpu_seconds() - begin - result.voxelise_cpu_s;
   return result;
@@ -178,6 +211,11 @@ AnalysisResult analyse_grid(const VoxelGrid& grid, double container_radius, cons
   const Layout layout = lay_out(grid.frame, result.bed_height_m, wish.diameter, container_radius, wish);
   start(layout, result);
   analyse_voxels(grid, container_space(container, grid.frame), layout, result);
+  const auto core = core_region(container, result.bed_height_m, wish.core_margin * wish.diameter);
+  if (wish.core && core) {
+    result.core = start_core(*core);
+    if (core->volume() > 0) result.core->voxels = voxel_porosity(grid, *core);
+  }
   result.bulk.definition = definition_of_density(layout, container, true);
   result.analyse_cpu_s = cpu_seconds() - begin;
   return result;

@@ -6,55 +6,17 @@
 
 #include "analysis/bins.hpp"
 #include "analysis/mesh_in_cylinder.hpp"
+#include "geometry/sphere_volume.hpp"
+#include "math/quadrature.hpp"
 
 namespace packbed {
 namespace {
 
-struct Rule {
-  std::vector<double> node, weight;  // on [-1, 1]
-};
-
-/// Gauss-Legendre by Newton's method on the Legendre polynomial (Press et al., Numerical Recipes, 2007,
-/// section 4.6).
-Rule gauss_legendre(int n) {
-  Rule rule;
-  for (int i = 0; i < n; ++i) {
-    double x = std::cos(kPi * (i + 0.75) / (n + 0.5)), slope = 0;
-    for (int k = 0; k < 100; ++k) {
-      double p = 1, before = 0;
-      for (int j = 0; j < n; ++j) {
-        const double next = ((2 * j + 1) * x * p - j * before) / (j + 1);
-        before = p;
-        p = next;
-      }
-      slope = n * (x * p - before) / (x * x - 1);
-      const double step = p / slope;
-      x -= step;
-      if (std::abs(step) < 1e-15) break;
-    }
-    rule.node.push_back(x);
-    rule.weight.push_back(2 / ((1 - x * x) * slope * slope));
-  }
-  return rule;
-}
-
-/// Nodes and weights on [-1, 1] for functions that end like a square root: x = sin(pi t / 2) over
-/// Gauss-Legendre t.
-Rule with_root_ends(int n) {
-  Rule rule = gauss_legendre(n);
-  for (std::size_t i = 0; i < rule.node.size(); ++i) {
-    rule.weight[i] *= kPi / 2 * std::cos(kPi / 2 * rule.node[i]);
-    rule.node[i] = std::sin(kPi / 2 * rule.node[i]);
-  }
-  return rule;
-}
-
-/// Length of the vertical line through (x, y) inside a sphere or cylinder and between two heights.
+/// Length of the vertical line through (x, y) inside a cylinder and between two heights.
 class VerticalChord {
  public:
   VerticalChord(const Shape& shape, const Pellet& p, double z_low, double z_high)
-      : sphere_(shape.kind == ShapeClass::sphere),
-        radius_(shape.radius * p.scale),
+      : radius_(shape.radius * p.scale),
         half_(shape.half_height * p.scale),
         low_(z_low - p.pose.position.z()),
         high_(z_high - p.pose.position.z()),
@@ -73,37 +35,30 @@ class VerticalChord {
   double operator()(double x, double y) const {
     const double dx = x - cx_, dy = y - cy_;
     double from = -1e300, to = 1e300;
-    if (sphere_) {
-      const double rest = radius_ * radius_ - dx * dx - dy * dy;
-      if (rest <= 0) return 0;
-      to = std::sqrt(rest);
-      from = -to;
+    const double ox = dx * u_.x() + dy * v_.x(), oy = dx * u_.y() + dy * v_.y(),
+                 oz = dx * u_.z() + dy * v_.z();
+    const double outside = ox * ox + oy * oy - radius_ * radius_;
+    if (upright_) {
+      if (outside >= 0) return 0;
     } else {
-      const double ox = dx * u_.x() + dy * v_.x(), oy = dx * u_.y() + dy * v_.y(),
-                   oz = dx * u_.z() + dy * v_.z();
-      const double outside = ox * ox + oy * oy - radius_ * radius_;
-      if (upright_) {
-        if (outside >= 0) return 0;
-      } else {
-        const double b = ox * d_.x() + oy * d_.y(), rest = b * b - across_ * outside;
-        if (rest <= 0) return 0;
-        const double root = std::sqrt(rest);
-        from = (-b - root) * per_across_;
-        to = (-b + root) * per_across_;
-      }
-      if (lying_) {
-        if (std::abs(oz) >= half_) return 0;
-      } else {
-        const double p = (half_ - oz) * per_dz_, q = (-half_ - oz) * per_dz_;
-        from = std::max(from, std::min(p, q));
-        to = std::min(to, std::max(p, q));
-      }
+      const double b = ox * d_.x() + oy * d_.y(), rest = b * b - across_ * outside;
+      if (rest <= 0) return 0;
+      const double root = std::sqrt(rest);
+      from = (-b - root) * per_across_;
+      to = (-b + root) * per_across_;
+    }
+    if (lying_) {
+      if (std::abs(oz) >= half_) return 0;
+    } else {
+      const double p = (half_ - oz) * per_dz_, q = (-half_ - oz) * per_dz_;
+      from = std::max(from, std::min(p, q));
+      to = std::min(to, std::max(p, q));
     }
     return std::max(0.0, std::min(to, high_) - std::max(from, low_));
   }
 
  private:
-  bool sphere_, upright_ = false, lying_ = false;
+  bool upright_ = false, lying_ = false;
   double radius_, half_, low_, high_, cx_, cy_, across_ = 0, per_across_ = 0, per_dz_ = 0;
   Vec3 u_, v_, d_;  // world x, y, z in the pellet's own frame
 };
@@ -160,19 +115,33 @@ class RingIntegral {
     return sum * (to - from) / 2;
   }
 
-  Rule angles_, radii_;
+  Quadrature angles_, radii_;
   int scan_;
 };
 
 /// Radius of a circle round the middle of the shadow that holds it: the shadow is made of two ellipses
 /// (radius, radius c), moved by half_height s along their short axes.
 double shadow_reach(const Shape& shape, const Pellet& p) {
-  if (shape.kind == ShapeClass::sphere) return shape.radius * p.scale;
   const double c = std::abs((p.pose.rotation * Vec3::UnitZ()).z()), s = std::sqrt(std::max(0.0, 1 - c * c));
   const double shift = shape.half_height * s, r = shape.radius;
   // largest |(r sin t, shift + r c cos t)|: at t = 0, or where its derivative has its other zero
   const double cosine = s > 0 ? std::min(1.0, shift * c / (r * s * s)) : 0;
   return p.scale * std::hypot(r * std::sqrt(1 - cosine * cosine), shift + r * c * cosine) * (1 + 1e-12);
+}
+
+void add_sphere_rings(const Vec3& centre, double radius, const std::vector<double>& radii, double z_low,
+                      double z_high, std::vector<double>& bins) {
+  const double distance = centre.head<2>().norm();
+  const auto within = [&](std::size_t k) {
+    return radii[k] > 0 ? sphere_in_cylinder(centre, radius, radii[k], z_low, z_high) : 0.0;
+  };
+  const std::size_t first = bin_of(radii, std::max(radii.front(), distance - radius));
+  double below = within(first);
+  for (std::size_t k = first; k + 1 < radii.size() && radii[k] < distance + radius; ++k) {
+    const double above = within(k + 1);
+    bins[k] += above - below;
+    below = above;
+  }
 }
 
 }  // namespace
@@ -187,6 +156,10 @@ std::vector<double> ring_volumes(const PackedBed& bed, const std::vector<double>
     if (p.pose.position.z() + bound <= z_low || p.pose.position.z() - bound >= z_high) return;
     if (seen_as_mesh(shape.kind)) {
       add_mesh_rings(shape.surface, p, radii, z_low, z_high, bins);
+      return;
+    }
+    if (shape.kind == ShapeClass::sphere) {
+      add_sphere_rings(p.pose.position, shape.radius * p.scale, radii, z_low, z_high, bins);
       return;
     }
     const double reach = shadow_reach(shape, p),

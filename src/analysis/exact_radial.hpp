@@ -1,9 +1,10 @@
 #pragma once
 // Volume of pellets between upright cylinders round the z axis, without voxels.
 //
-//   sphere, cylinder   lengths of vertical chords, in closed form, integrated over the angle within the
-//   shadow that
-//                      the pellet throws on the floor (its ends are found by bisection, the square-root
+//   sphere             exact: geometry/sphere_volume.hpp
+//   cylinder           lengths of vertical chords, in closed form, integrated over the angle within the
+//   shadow
+//                      that the pellet throws on the floor (its ends are found by bisection, the square-root
 //                      behaviour there is taken out by a change of variable) and over the radius, by
 //                      Gauss-Legendre rules
 //   any closed mesh    exact: the integral of the height over each triangle's shadow within a disc, by
@@ -15,6 +16,7 @@
 
 namespace packbed {
 
+/// For cylinders.
 struct RadialRule {
   int angles = 24;  // nodes over the angle
   int radii = 2;    // nodes over a ring's width

@@ -7,6 +7,7 @@
 #include "analysis/container_overlap.hpp"
 #include "analysis/penetration.hpp"
 #include "bed/pellet_box.hpp"
+#include "geometry/sphere_volume.hpp"
 #include "math/threads.hpp"
 
 namespace packbed {
@@ -62,13 +63,9 @@ void between_spheres(const Body& a, const Body& b, Overlap& overlap) {
   const double d = apart.norm(), depth = r + s - d;
   if (!(depth > 0)) return;
   overlap.depth = depth;
-  if (d <= std::abs(r - s)) {  // one inside the other
-    overlap.point = r < s ? a.centre() : b.centre();
-    overlap.volume = 4.0 / 3.0 * kPi * std::pow(std::min(r, s), 3);
-    return;
-  }
-  overlap.point = b.centre() + (s - 0.5 * depth) / d * apart;
-  overlap.volume = kPi * depth * depth * (d * d + 2 * d * (r + s) - 3 * (r - s) * (r - s)) / (12 * d);
+  overlap.volume = sphere_in_sphere(r, s, d);
+  overlap.point = d <= std::abs(r - s) ? (r < s ? a : b).centre()  // one inside the other
+                                       : Vec3(b.centre() + (s - 0.5 * depth) / d * apart);
 }
 
 Overlap between(const Body& a, const Body& b, const Pair& pair) {

@@ -23,8 +23,8 @@ struct Penetration {
 /// does not reach it ends the search, for then the bodies are apart).
 std::optional<Penetration> penetration(const Body& a, const Body& b);
 
-/// Volume that two convex bodies share [m3], from 16 rays round the deepest point in the plane of the touch,
-/// four nodes a ray: to a few per cent.
+/// Volume that two convex bodies share [m3], from 16 rays round the deepest point in
+/// the plane of the touch, four nodes a ray: to a few per cent.
 double shared_volume(const Body& a, const Body& b, const Penetration& p);
 
 }  // namespace packbed

@@ -1,6 +1,8 @@
 #pragma once
 // What the analysis of a bed or a grid tells: plain records. Densities are solid volume over space volume.
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +10,8 @@
 #include "math/types.hpp"
 
 namespace packbed {
+
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A curve over a distance; x in pellet diameters dp and in metres, one value a bin (n each).
 struct Profile {
@@ -54,6 +58,52 @@ struct OverlapAudit {
   double volume = 0;           // sum of pair intersection volumes [m3], estimated
 };
 
+/// Voids between the pellets of the core: what lies so far from all side walls, the floor and the top of the
+/// bed that none of them is felt. NaN where a number does not exist.
+struct CorePorosity {
+  double margin_m = 0;                    // from everything
+  std::array<double, 2> z_range_m{0, 0};  // of the core; empty when the bed is too small to have one
+  double volume_m3 = 0;                   // 0: there is no core
+  double exact = kNone;                   // spheres in a box or tube, without voxels
+  double voxels = kNone;                  // from the grid
+  double shots = kNone;                   // mean over the test cells
+  double shots_error = kNone;             // standard error of `shots`, from the number of points
+  std::int64_t cells = 0;                 // test cells, and points in each
+  int shots_per_cell = 0;
+  double cell_m = 0;
+  double cell_sd = kNone;  // standard deviation of the porosity over the cells
+  std::string definition;  // one sentence
+  /// The best there is: exact, else from voxels, else from shots.
+  double best() const;
+};
+
+/// Correlation of size and place along x, y and z (Dziugys et al. 2022, equation 2): +1 when all larger
+/// pellets are farther that way, -1 when all smaller ones are. Up is z: positive when large ones lie above.
+struct Segregation {
+  std::array<double, 3> along{kNone, kNone, kNone};  // NaN when all are alike
+};
+
+/// Pellets of about one size.
+struct SizeRow {
+  std::uint32_t shape = 0;
+  double from_m = 0, to_m = 0;  // diameter of the sphere of the same volume; equal for a single size
+  double diameter_m = 0;        // mean
+  int count = 0;
+  double number = 0, volume = 0;                      // shares of the shape's pellets
+  double asked_number = kNone, asked_volume = kNone;  // what the case asks for; NaN where nobody knows
+};
+
+/// Touching pellets.
+struct Coordination {
+  double mean = 0;              // touching pellets of a pellet
+  double core = kNone;          // the same over pellets whose centre is in the core; NaN without one
+  double core_bearing = kNone;  // ... without the rattlers
+  int rattlers = 0;             // pellets with fewer than four contacts, the container's counted
+  std::vector<int> histogram;   // pellets with 0, 1, ... touching pellets
+  std::vector<double> by_size;  // mean of the pellets of each row of AnalysisResult::sizes
+  std::string source;           // "forces of the packer" or "overlaps"
+};
+
 struct AnalysisResult {
   double bed_height_m = 0;
   BulkDensity bulk;
@@ -61,6 +111,11 @@ struct AnalysisResult {
   std::optional<PlanarMap> planar;
   std::optional<Orientation> orientation;
   std::optional<OverlapAudit> overlap;
+  double smallest_m = 0, largest_m = 0;  // of the pellets: diameter of the sphere of the same volume
+  std::vector<SizeRow> sizes;            // empty when all pellets are alike
+  std::optional<CorePorosity> core;
+  std::optional<Segregation> segregation;
+  std::optional<Coordination> coordination;
   double voxelise_cpu_s = 0, analyse_cpu_s = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bed/sizes.hpp"
 #include "shape/container.hpp"
 #include "shape/shape.hpp"
 
@@ -15,6 +16,10 @@ struct PelletKind {
   ShapePtr shape;
   double density = 0;  // [kg/m3]
   double share = 1;    // of the pellets fed, by number; the shares of a scene add up to 1
+  /// What is fed of each size; empty: every pellet has scale 1. When one kind of a scene has sizes, all have,
+  /// and their counts add up to Feed::count.
+  std::vector<SizeClass> sizes = {};
+  SizeDistribution asked = {};  // what sizes stands for
 };
 
 /// Penalty contact between two pellets, or between a pellet and the container.
@@ -29,7 +34,7 @@ struct ContactLaw {
   double rolling_friction = 0;  // moment against rolling over R* times the normal force [-]
 };
 
-enum class FeedKind { layers, pour, placed };
+enum class FeedKind { layers, pour, placed, lattice };
 
 /// A pellet that the case puts where it wants it.
 struct PlacedPellet {
@@ -38,6 +43,7 @@ struct PlacedPellet {
   Vec3 velocity = Vec3::Zero();  // [m/s]
   Vec3 spin = Vec3::Zero();      // [rad/s]
   bool fixed = false;
+  double scale = 1;  // of the shape [-]
 };
 
 struct Feed {
@@ -52,7 +58,8 @@ struct Feed {
   bool above_bed = false;        // drop_height counts from the bed's surface instead of the floor
   double radius =
       0;  // of the circle that centres enter in [m]; 0: as wide as the container lets every rotation fit
-  double speed = 0;                  // of a uniformly random direction at entry [m/s]; 0: at rest
+  double speed = 0;    // of a uniformly random direction at entry [m/s]; lattice: largest of each component
+  double spacing = 0;  // lattice: between neighbouring sites [m]; 0: across the largest pellet
   std::vector<PlacedPellet> placed;  // FeedKind::placed only
 };
 
@@ -78,7 +85,7 @@ struct LatticeRules {
   double rebound = 0.5;               // rebounding probability: 0 never up, 1 up as often as down
   double max_angle = 10 * kPi / 180;  // of one rotation [rad]
   double max_sweep = 3;               // digicgp: way of the farthest point in one rotation, at most [cells]
-  double rotation_share = 0.15;       // of a pellet's steps in which it also tries to rotate
+  double rotation_share = 0.15;       // digipac: of a pellet's steps in which it also tries to rotate
   int interval = 0;           // steps that stand for Feed::interval; 0: what a pellet needs to fall clear
   int rest_window = 200;      // steps
   double rest_sinking = 0.5;  // mean sinking over rest_window under which a bed is at rest [cells]
@@ -91,7 +98,10 @@ struct AnalysisWish {
   double from_diameters = 3;  // middle section for the bulk density: from this height ...
   double to_diameters = 17;   // ... to this height above the floor, in pellet diameters (see diameter)
   double diameter = 0;        // dp of all scaled axes [m]; 0: diameter of the sphere of equal volume
-  bool voxels = true, orientation = true, exact = true, overlap = true;
+  double core_margin = 3;     // of the core from walls, floor and top, in diameters of the largest pellet
+  double cell = 0;            // edge of the test cells that are shot at [m]; 0: none
+  int shots = 10;             // points along each edge of a cell
+  bool voxels = true, orientation = true, exact = true, overlap = true, core = true;
 };
 
 struct OutputWish {

@@ -116,7 +116,8 @@ VoxelGrid voxelise(const PackedBed& bed, const GridFrame& frame, bool labels) {
 }
 
 std::vector<float> partial_volume(const PackedBed& bed, const GridFrame& frame, int k) {
-  if (k < 1 || k > 8) throw InputError("points along a voxel's edge", std::to_string(k), "1 to 8");
+  if (k < 1 || k > kMostPoints)
+    throw InputError("points along a voxel's edge", std::to_string(k), fmt::format("1 to {}", kMostPoints));
   const std::size_t nx = static_cast<std::size_t>(frame.size[0]),
                     ny = static_cast<std::size_t>(frame.size[1]);
   std::vector<float> fraction(nx * ny * static_cast<std::size_t>(frame.size[2]), 0.0F);
@@ -137,10 +138,11 @@ std::vector<float> partial_volume(const PackedBed& bed, const GridFrame& frame, 
             const std::uint64_t* row =
                 points.words.data() + points.row(static_cast<int>(y), static_cast<int>(zz) * k + c);
             for (std::size_t x = 0; x < nx * static_cast<std::size_t>(k); ++x)
-              if ((row[x / 64] >> (x % 64)) & 1U) out[x / static_cast<std::size_t>(k)] += weight;
+              if ((row[x / 64] >> (x % 64)) & 1U) out[x / static_cast<std::size_t>(k)] += 1.0F;
           }
     });
   }
+  for (float& f : fraction) f *= weight;  // whole numbers until now: exact
   return fraction;
 }
 

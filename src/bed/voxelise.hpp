@@ -20,8 +20,10 @@ GridFrame frame_for(const PackedBed& bed, double pitch);
 /// keeps the one that comes first in the bed. Identical for any number of threads.
 VoxelGrid voxelise(const PackedBed& bed, const GridFrame& frame, bool labels = false);
 
-/// Fraction of each voxel inside pellets from k^3 points (1 <= k <= 8): float (nz, ny, nx). Points in two
-/// pellets count once. The error falls with the fineness pitch / k.
+/// Along the edge of a voxel of partial_volume.
+inline constexpr int kMostPoints = 32;
+/// Fraction of each voxel inside pellets from k^3 points (1 <= k <= kMostPoints): float (nz, ny, nx). Points
+/// in two pellets count once. The error falls with the fineness pitch / k.
 std::vector<float> partial_volume(const PackedBed& bed, const GridFrame& frame, int k);
 
 /// Voxels that belong to the inside of the container. One slice that stands for all where they are alike

@@ -56,6 +56,10 @@ void print(const AnalysisResult& r, const std::string& folder) {
   if (std::isfinite(b.exact)) line("packing density", fmt::format("{:.4f} exact", b.exact));
   line("axial spread", fmt::format("{:.4f}", b.axial_sd));
   line("", b.definition);
+  if (r.core && std::isfinite(r.core->best())) line("core porosity", fmt::format("{:.4f}", r.core->best()));
+  if (r.core) line("", r.core->definition);
+  if (r.segregation) line("segregation", fmt::format("{:+.4f} along the height", r.segregation->along[2]));
+  if (r.coordination) line("touching pellets", fmt::format("{:.3f} each", r.coordination->mean));
   if (r.overlap)
     line("overlap",
          fmt::format("{} touching pairs; mean {:.3g} %, largest {:.3g} % of the smallest thickness",

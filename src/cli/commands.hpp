@@ -55,6 +55,12 @@ struct CompareOptions {
 };
 int compare(const CompareOptions&);
 
+struct LawOptions {
+  std::vector<std::string> inputs;  // result folders
+  std::string out = "study", published;
+};
+int law(const LawOptions&);
+
 struct HandoverOptions {
   std::string bed, to = "mesh", out = "handover";
   std::vector<std::string> sets;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "analysis/analyse.hpp"
+#include "analysis/size_rows.hpp"
 #include "io/results.hpp"
 #include "io/summary.hpp"
 
@@ -35,7 +36,8 @@ void audit_overlap(RunRecord& record, const Scene& scene, const AnalysisResult& 
 
 int finish(const ResultFolder& folder, const Scene& scene, PackResult& result) {
   VoxelGrid grid = std::move(result.grid);
-  const AnalysisResult analysis = analyse_bed(result.bed, scene.analysis, &grid);
+  AnalysisResult analysis = analyse_bed(result.bed, scene.analysis, &grid);
+  add_asked(analysis.sizes, scene.pellets);
   audit_overlap(result.record, scene, analysis);
   const std::string report =
       write_results(folder, scene, result.bed, result.record, analysis, grid.words.empty() ? nullptr : &grid);

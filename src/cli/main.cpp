@@ -110,6 +110,18 @@ void add_compare(CLI::App& app, int& code) {
   c->callback([o, &code] { code = compare(*o); });
 }
 
+void add_law(CLI::App& app, int& code) {
+  auto o = std::make_shared<LawOptions>();
+  CLI::App* c = app.add_subcommand(
+      "law", "beds of different smallest sizes side by side: core porosity, segregation, the fractal law");
+  c->add_option("inputs", o->inputs, "result folders")->required();
+  c->add_option("--out", o->out, "folder for table, law and page (default: study)");
+  c->add_option("--published", o->published,
+                "CSV of published numbers to put beside (quantity,value,low,high)");
+  c->footer("Example:\n  packbed law results/wood_chips/* --published cases/wood_chips/published.csv");
+  c->callback([o, &code] { code = law(*o); });
+}
+
 void add_handover(CLI::App& app, int& code) {
   auto o = std::make_shared<HandoverOptions>();
   CLI::App* c =
@@ -143,6 +155,7 @@ int main(int argc, char** argv) {
   cli::add_check(app, code);
   cli::add_export(app, code);
   cli::add_compare(app, code);
+  cli::add_law(app, code);
   cli::add_handover(app, code);
   try {
     app.parse(argc, argv);

@@ -57,6 +57,7 @@ void add_body(Bodies& b, const NewBody& n) {
   b.inertia.push_back(n.inertia);
   b.inverse_inertia.push_back(n.fixed ? Vec3(Vec3::Zero()) : Vec3(n.inertia.cwiseInverse()));
   b.bounding_radius.push_back(n.bounding_radius);
+  b.scale.push_back(n.scale);
   b.position.push_back(n.pose.position);
   b.rotation.push_back(n.pose.rotation.normalized());
   b.axis.push_back(b.rotation.back() * Vec3::UnitZ());

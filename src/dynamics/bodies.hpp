@@ -23,6 +23,7 @@ struct Bodies {
   std::vector<Vec3> inertia;            // principal moments, own frame [kg m2]
   std::vector<Vec3> inverse_inertia;    // 0 for fixed
   std::vector<double> bounding_radius;  // [m]
+  std::vector<double> scale;            // of the shape [-]
   // written by kick and drift
   std::vector<Vec3> position;                    // centre of mass [m]
   std::vector<Quat> rotation;                    // own frame to world
@@ -49,6 +50,7 @@ struct NewBody {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
   bool fixed = false;
   bool airborne = false;
+  double scale = 1;
 };
 void add_body(Bodies& bodies, const NewBody& body);
 

@@ -49,12 +49,18 @@ void move_path(TomlNode& table, const char* key, const fs::path& from, const fs:
   node->text = full.lexically_proximate(fs::absolute(to).lexically_normal()).string();
 }
 
+void move_paths_of_pellet(TomlNode& pellet, const fs::path& from, const fs::path& to) {
+  move_path(pellet, "file", from, to);
+  if (TomlNode* sizes = pellet.kind == Kind::table ? pellet.find("sizes") : nullptr)
+    move_path(*sizes, "csv", from, to);
+}
+
 void move_paths(TomlNode& root, const fs::path& from, const fs::path& to) {
   if (fs::absolute(from).lexically_normal() == fs::absolute(to).lexically_normal()) return;
   if (TomlNode* pellet = root.find("pellet")) {
-    move_path(*pellet, "file", from, to);
+    move_paths_of_pellet(*pellet, from, to);
     if (pellet->kind == Kind::array)
-      for (TomlNode& one : pellet->items) move_path(one, "file", from, to);
+      for (TomlNode& one : pellet->items) move_paths_of_pellet(one, from, to);
   }
   if (TomlNode* container = root.find("container")) move_path(*container, "file", from, to);
   if (TomlNode* feed = root.find("feed")) move_path(*feed, "csv", from, to);

@@ -56,7 +56,8 @@ class Fields {
   virtual void text(const Key&, std::string&) = 0;  // empty: not given
   virtual void path(const Key&, std::string&) = 0;  // of a file that must be there; empty: not given
   virtual void vector(const Key&, Vec3&) = 0;
-  virtual void rotation(const Key&, Quat&) = 0;  // (w, x, y, z)
+  virtual void numbers(const Key&, std::vector<double>&) = 0;  // a list; empty: not given
+  virtual void rotation(const Key&, Quat&) = 0;                // (w, x, y, z)
 };
 
 /// "> 0 m, <= 5 m"; "any" without limits.

@@ -1,7 +1,9 @@
 #include "io/case_keys.hpp"
 
+#include "io/case_feed_keys.hpp"
 #include "io/case_ranges.hpp"
 #include "io/case_shape_keys.hpp"
+#include "io/case_size_keys.hpp"
 
 namespace packbed {
 namespace {
@@ -61,6 +63,8 @@ void pellet_keys(Fields& f, PelletRecord& r) {
           .meaning = "of the pellets fed, by number, relative to the other kinds",
           .range = above_zero_to(1e9, "leave out a kind that is not fed")},
          r.share);
+  f.section("sizes", "How the sizes of this kind are spread; docs/spheres.md.",
+            [&] { size_keys(f, r.sizes_of_pellets); });
 }
 
 void container_keys(Fields& f, ContainerRecord& r) {
@@ -131,99 +135,6 @@ void contact_keys(Fields& f, ContactRecord& r) {
           .meaning = "moment against rolling, over the normal force times the reduced radius",
           .range = between(0, 1)},
          r.rolling_friction);
-}
-
-void placed_keys(Fields& f, PlacedRecord& r) {
-  int kind = static_cast<int>(r.pellet.kind);
-  f.whole({.name = "kind", .meaning = "which [[pellet]], from 0", .range = between(0, 1000)}, kind);
-  r.pellet.kind = static_cast<std::uint32_t>(kind);
-  f.vector({.name = "position",
-            .meaning = "of the centre of mass",
-            .dimension = D::length,
-            .range = between(-100, 100),
-            .required = true},
-           r.pellet.pose.position);
-  f.real({.name = "turn", .meaning = "angle about turn_about; instead of rotation", .dimension = D::angle},
-         r.turn);
-  f.when(!r.turn, "no turn", [&] {
-    f.rotation({.name = "rotation", .meaning = "from the shape's frame, quaternion [w, x, y, z]"},
-               r.pellet.pose.rotation);
-  });
-  f.when(r.turn.has_value(), "turn = ...", [&] {
-    f.vector({.name = "turn_about", .meaning = "direction of the axis that turn counts about"}, r.turn_about);
-  });
-  f.vector({.name = "velocity",
-            .meaning = "of the centre of mass",
-            .dimension = D::speed,
-            .range = between(-1e4, 1e4)},
-           r.pellet.velocity);
-  f.vector({.name = "spin",
-            .meaning = "angular velocity, world axes",
-            .dimension = D::angular_velocity,
-            .range = between(-1e6, 1e6)},
-           r.pellet.spin);
-  f.flag({.name = "fixed", .meaning = "held where it is"}, r.pellet.fixed);
-}
-
-void poured_keys(Fields& f, Feed& r) {
-  f.whole({.name = "count", .meaning = "stop feeding at so many pellets", .range = between(1, 1e7)}, r.count);
-  f.real({.name = "height",
-          .meaning = "stop feeding when the bed's surface is so high",
-          .dimension = D::length,
-          .range = kSize},
-         r.height);
-  f.real({.name = "mass",
-          .meaning = "stop feeding at this mass",
-          .dimension = D::mass,
-          .range = above_zero_to(1e6)},
-         r.mass);
-  f.whole({.name = "per_layer",
-           .meaning = "pellets that enter together, in one layer or one handful",
-           .range = between(1, 1e6, "something has to enter")},
-          r.per_layer);
-  f.real({.name = "interval",
-          .meaning = "between two layers or handfuls",
-          .dimension = D::time,
-          .range = above_zero_to(3600, "two layers cannot enter at the same instant")},
-         r.interval);
-  f.real({.name = "drop_height",
-          .meaning = "of the centres of the lowest pellets of a layer at entry",
-          .dimension = D::length,
-          .range = kSize,
-          .required = true},
-         r.drop_height);
-  f.flag({.name = "above_bed", .meaning = "drop_height counts from the bed's surface instead of the floor"},
-         r.above_bed);
-  f.real({.name = "radius",
-          .meaning = "of the circle that centres enter in",
-          .dimension = D::length,
-          .range = kSize,
-          .automatic = "as wide as the container lets every rotation fit"},
-         r.radius);
-  f.real({.name = "speed",
-          .meaning = "at entry, in a random direction; 0 = at rest",
-          .dimension = D::speed,
-          .range = between(0, 1e3)},
-         r.speed);
-}
-
-void feed_keys(Fields& f, CaseRecord& r) {
-  f.choice(
-      {.name = "kind",
-       .meaning =
-           "layers = flat layers over the whole section; pour = handfuls from random points in a circle; "
-           "placed = where the case or a CSV file says"},
-      r.feed_kind, {"layers", "pour", "placed"});
-  const bool placed = r.feed_kind == "placed";
-  f.when(!placed, "kind = \"layers\" or \"pour\"", [&] { poured_keys(f, r.feed); });
-  f.when(placed, "kind = \"placed\"", [&] {
-    f.path({.name = "csv", .meaning = "table of placed pellets, a line each; instead of [[feed.placed]]"},
-           r.feed_csv);
-    f.list("placed", "One pellet, put where it is wanted.", r.placed.size(), [&](std::size_t i) {
-      if (i >= r.placed.size()) r.placed.resize(i + 1);
-      placed_keys(f, r.placed[i]);
-    });
-  });
 }
 
 void stepping_keys(Fields& f, Stepping& r) {
@@ -300,7 +211,7 @@ void lattice_keys(Fields& f, LatticeRules& r) {
           .range = above_zero_to(1e3)},
          r.max_sweep);
   f.real({.name = "rotation_share",
-          .meaning = "of a pellet's steps in which it tries to rotate",
+          .meaning = "digipac: of a pellet's steps in which it tries to rotate",
           .range = between(0, 1, "it is a probability")},
          r.rotation_share);
   f.whole({.name = "interval",
@@ -343,6 +254,21 @@ void analysis_keys(Fields& f, AnalysisWish& r) {
   f.flag({.name = "voxels", .meaning = "profiles from a voxel grid"}, r.voxels);
   f.flag({.name = "orientation", .meaning = "orientation of the pellets' axes"}, r.orientation);
   f.flag({.name = "exact", .meaning = "voxel-free profiles beside"}, r.exact);
+  f.flag({.name = "core", .meaning = "porosity of the core"}, r.core);
+  f.real({.name = "core_margin",
+          .meaning = "of the core from walls, floor and top, in diameters of the largest pellet",
+          .range = between(0, 1e3)},
+         r.core_margin);
+  f.real({.name = "cell",
+          .meaning = "edge of the test cells of the core that points are shot at",
+          .dimension = D::length,
+          .range = above_zero_to(1),
+          .automatic = "no cells"},
+         r.cell);
+  f.whole({.name = "shots",
+           .meaning = "points along each edge of a test cell: 10 = 1000 in each",
+           .range = between(1, 32)},
+          r.shots);
 }
 
 void output_keys(Fields& f, OutputWish& r) {

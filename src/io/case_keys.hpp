@@ -11,12 +11,21 @@
 
 namespace packbed {
 
+/// [pellet.sizes]
+struct SizesRecord {
+  std::string law = "one", by = "volume", csv;
+  std::vector<double> diameters, fractions, amounts;  // table: [m], [-], [-]
+  double modulus = 0, exponent = 0, deviation = 0;    // [m], [-], [-]
+  std::optional<double> smallest, largest;            // [m]
+};
+
 struct PelletRecord {
   std::string name, file, unit, shape;
   bool recognise = true;
   LibrarySizes sizes;
   double density = 0;  // [kg/m3]
   double share = 1;
+  SizesRecord sizes_of_pellets;
 };
 
 struct ContainerRecord {

@@ -5,6 +5,8 @@
 
 #include "io/case.hpp"
 #include "math/quantity.hpp"
+#include "packers/expect.hpp"
+#include "packers/feed.hpp"
 #include "packers/packer.hpp"
 
 namespace packbed {
@@ -72,12 +74,13 @@ bool round_container(const Scene& s) {
 
 double mean_volume(const Scene& s) {
   double v = 0;
-  for (const PelletKind& k : s.pellets) v += k.share * k.shape->volume;
+  for (const PelletKind& k : s.pellets) v += k.share * k.shape->volume * mean_cubed_scale(k.sizes);
   return v;
 }
 double mean_mass(const Scene& s) {
   double m = 0;
-  for (const PelletKind& k : s.pellets) m += k.share * k.density * k.shape->volume;
+  for (const PelletKind& k : s.pellets)
+    m += k.share * k.density * k.shape->volume * mean_cubed_scale(k.sizes);
   return m;
 }
 double fed_radius(const Scene& s) {
@@ -99,7 +102,7 @@ double expected_height(const Scene& s) {
   if (s.feed.kind == FeedKind::placed) {
     double top = 0;
     for (const PlacedPellet& p : s.feed.placed)
-      top = std::max(top, p.pose.position.z() + s.pellets[p.kind].shape->bounding_radius);
+      top = std::max(top, p.pose.position.z() + p.scale * s.pellets[p.kind].shape->bounding_radius);
     return top;
   }
   return expected_pellets(s) * mean_volume(s) / (kPackingDensity * kPi * std::pow(fed_radius(s), 2));
@@ -117,6 +120,7 @@ struct Expected {
 double impact_speed(const Scene& s) {
   const double g = s.gravity.norm();
   double speed = 0;
+  if (s.feed.kind == FeedKind::lattice) return landing_speed(s);
   if (s.feed.kind != FeedKind::placed)
     return std::sqrt(2 * g * s.feed.drop_height + s.feed.speed * s.feed.speed);
   for (const PlacedPellet& p : s.feed.placed)
@@ -126,7 +130,8 @@ double impact_speed(const Scene& s) {
 
 double lightest(const Scene& s) {
   double mass = 1e300;
-  for (const PelletKind& k : s.pellets) mass = std::min(mass, k.density * k.shape->volume);
+  for (const PelletKind& k : s.pellets)
+    mass = std::min(mass, k.density * k.shape->volume * std::pow(smallest_scale(k.sizes), 3));
   return mass;
 }
 
@@ -136,7 +141,7 @@ double stiffness_of(const Scene& s, const ContactLaw& law, double speed) {
   for (const PelletKind& k : s.pellets)
     if (!(law.stiffness > 0))
       stiffness =
-          std::max(stiffness, k.density * k.shape->volume *
+          std::max(stiffness, largest_scale(k.sizes) * k.density * k.shape->volume *
                                   std::pow(speed / (law.allowed_overlap * k.shape->smallest_thickness), 2));
   return stiffness;
 }
@@ -150,12 +155,14 @@ Expected expect(const Scene& s) {
   e.step = s.stepping.step > 0 ? s.stepping.step : contact / s.stepping.steps_per_contact;
   const double n = expected_pellets(s), g = std::max(s.gravity.norm(), 1e-3);
   const bool placed = s.feed.kind == FeedKind::placed;
-  const double feeding = placed ? 0 : std::ceil(n / s.feed.per_layer - 1) * s.feed.interval;
-  const double fall = std::sqrt(2 * (placed ? expected_height(s) : s.feed.drop_height) / g);
+  const bool at_once = placed || s.feed.kind == FeedKind::lattice;
+  const double feeding = at_once ? 0 : std::ceil(n / s.feed.per_layer - 1) * s.feed.interval;
+  const double height = s.feed.kind == FeedKind::lattice ? highest_of_lattice(s) : s.feed.drop_height;
+  const double fall = std::sqrt(2 * (placed ? expected_height(s) : height) / g);
   e.simulated = s.stepping.duration > 0 ? s.stepping.duration
                                         : std::min(s.stepping.max_time, feeding + fall + kSettling);
   e.steps = e.step > 0 ? e.simulated / e.step : 0;
-  const double share = placed ? 1 : (feeding / 2 + fall + kSettling) / std::max(1e-9, e.simulated);
+  const double share = at_once ? 1 : (feeding / 2 + fall + kSettling) / std::max(1e-9, e.simulated);
   const double present = n * std::min(1.0, share) * (s.stepping.sleep && n > 200 ? kAwake : 1);
   const double cost = kContactCost[any_field(s) ? 2 : only_spheres(s) ? 0 : 1];
   e.cpu = e.steps * present * (kBodyCost + kContactsPerPellet * cost);
@@ -180,13 +187,28 @@ std::string size_text(const Shape& shape) {
                      q(2 * shape.bounding_radius, D::length));
 }
 
+std::string sizes_text(const PelletKind& k) {
+  if (k.sizes.empty()) return "";
+  const double diameter = k.shape->equivalent_diameter();
+  if (k.asked.law == SizeLaw::one) return fmt::format("    {} of this size\n", k.sizes[0].count);
+  if (k.asked.law != SizeLaw::table)
+    return fmt::format("    {} sizes from {} to {}\n", k.sizes.size(),
+                       q(smallest_scale(k.sizes) * diameter, D::length),
+                       q(largest_scale(k.sizes) * diameter, D::length));
+  std::string out;
+  for (const SizeClass& c : k.sizes)
+    out += fmt::format("    {} of {} ({:.4g} % by number asked)\n", c.count, q(c.scale * diameter, D::length),
+                       100 * c.asked);
+  return out;
+}
+
 std::string pellets_text(const Scene& s) {
   std::string out = "pellets\n";
   for (const PelletKind& k : s.pellets)
-    out += fmt::format("  {}: {}, {}; volume {}, mass {}; kernel {}{}\n", k.shape->name,
+    out += fmt::format("  {}: {}, {}; volume {}, mass {}; kernel {}{}\n{}", k.shape->name,
                        to_string(k.shape->kind), size_text(*k.shape), q(k.shape->volume, D::volume),
                        q(k.density * k.shape->volume, D::mass), kernel_of(s, *k.shape),
-                       s.pellets.size() > 1 ? fmt::format("; share {:.3g}", k.share) : "");
+                       s.pellets.size() > 1 ? fmt::format("; share {:.3g}", k.share) : "", sizes_text(k));
   return out;
 }
 
@@ -209,6 +231,9 @@ std::string feed_text(const Scene& s) {
   if (f.kind == FeedKind::placed)
     return fmt::format("  {} placed pellet{}, no feeding\n", f.placed.size(),
                        f.placed.size() == 1 ? "" : "s");
+  if (f.kind == FeedKind::lattice)
+    return fmt::format("  feed: {:.0f} pellets on a cubic lattice from {} above the floor, at the start\n",
+                       expected_pellets(s), q(f.drop_height, D::length));
   std::vector<std::string> ends;
   if (f.count) ends.push_back(fmt::format("{} pellets", *f.count));
   if (f.height) ends.push_back("a bed of " + q(*f.height, D::length));

@@ -205,6 +205,21 @@ class Reader : public Fields {
     }
     value = read;
   }
+  void numbers(const Key& key, std::vector<double>& value) override {
+    const TomlNode* node = get(key);
+    if (!node) return;
+    if (node->kind != Kind::array || node->items.empty()) {
+      refuse(*node, key.name, fmt::format("a list of {}", what(key)));
+      return;
+    }
+    std::vector<double> read;
+    for (const TomlNode& item : node->items) {
+      const auto one = number(key, item);
+      if (!one) return;
+      read.push_back(*one);
+    }
+    value = read;
+  }
   void rotation(const Key& key, Quat& value) override {
     const TomlNode* node = get(key);
     if (!node) return;

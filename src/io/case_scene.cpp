@@ -8,8 +8,10 @@
 
 #include "contact/damping.hpp"
 #include "io/cad.hpp"
+#include "io/case_sizes.hpp"
 #include "io/placed_csv.hpp"
 #include "math/error.hpp"
+#include "packers/packer.hpp"
 
 namespace packbed {
 namespace {
@@ -107,9 +109,10 @@ Container make_container_of(const CaseRecord& record) {
 
 Feed make_feed(const CaseRecord& record, Problems& problems) {
   Feed feed = record.feed;
-  feed.kind = record.feed_kind == "pour"     ? FeedKind::pour
-              : record.feed_kind == "placed" ? FeedKind::placed
-                                             : FeedKind::layers;
+  feed.kind = record.feed_kind == "pour"      ? FeedKind::pour
+              : record.feed_kind == "placed"  ? FeedKind::placed
+              : record.feed_kind == "lattice" ? FeedKind::lattice
+                                              : FeedKind::layers;
   if (feed.kind != FeedKind::placed) return feed;
   for (const PlacedRecord& r : record.placed) {
     feed.placed.push_back(r.pellet);
@@ -129,13 +132,19 @@ Feed make_feed(const CaseRecord& record, Problems& problems) {
   return feed;
 }
 
-void check_fit(Problems& problems, const Scene& scene, const Shape& shape, const std::string& key) {
+void check_fit(Problems& problems, const Scene& scene, const PelletKind& kind, const std::string& key) {
+  const Shape& shape = *kind.shape;
+  const double smallest = smallest_scale(kind.sizes),
+               bounding = largest_scale(kind.sizes) * shape.bounding_radius;
+  const double thickness = smallest * shape.smallest_thickness;
   const Container& c = scene.container;
   const bool has_wall = c.radius > 0 && (c.kind == ContainerKind::tube || c.kind == ContainerKind::mesh);
-  const double across = 2 * shape.bounding_radius, inner = 2 * c.radius;
-  if (has_wall && shape.smallest_thickness > inner)
+  const double across = 2 * bounding, inner = 2 * c.radius;
+  if (has_wall && largest_scale(kind.sizes) * shape.smallest_thickness > inner)
     problems.add(
-        key, fmt::format("a pellet at least {} thick", length_text(shape.smallest_thickness)),
+        key,
+        fmt::format("a pellet at least {} thick",
+                    length_text(largest_scale(kind.sizes) * shape.smallest_thickness)),
         fmt::format("less than the container's inner diameter, {}", length_text(inner)),
         "the pellet is larger than the container: check the unit of the pellet and of the container");
   else if (has_wall && across >= inner && scene.feed.kind != FeedKind::placed)
@@ -144,14 +153,14 @@ void check_fit(Problems& problems, const Scene& scene, const Shape& shape, const
         fmt::format("less than the container's inner diameter, {}, so that it enters in every rotation",
                     length_text(inner)),
         "take a wider container, or feed.kind = \"placed\"");
-  if (scene.feed.kind != FeedKind::placed && !scene.feed.above_bed &&
-      scene.feed.drop_height < shape.bounding_radius && c.kind != ContainerKind::none)
+  if (scene.feed.kind != FeedKind::placed && !scene.feed.above_bed && scene.feed.drop_height < bounding &&
+      c.kind != ContainerKind::none)
     problems.add("feed.drop_height", length_text(scene.feed.drop_height),
-                 fmt::format("at least {}, the pellet's bounding radius", length_text(shape.bounding_radius)),
+                 fmt::format("at least {}, the pellet's bounding radius", length_text(bounding)),
                  "pellets would enter inside the floor");
-  if (scene.analysis.voxels && scene.analysis.voxel > shape.smallest_thickness)
+  if (scene.analysis.voxels && scene.analysis.voxel > thickness)
     problems.add("analysis.voxel", length_text(scene.analysis.voxel),
-                 fmt::format("at most the pellet's thinnest part, {}", length_text(shape.smallest_thickness)),
+                 fmt::format("at most the pellet's thinnest part, {}", length_text(thickness)),
                  "a coarser grid misses the pellet; a tenth of that or less is usual");
 }
 
@@ -178,7 +187,8 @@ void check_container(Problems& problems, const Scene& scene) {
     problems.add("feed.kind", "\"layers\" round a core", "\"pour\" or \"placed\"",
                  "a layer fills the whole circle and finds no room: feed.kind = \"pour\"");
   double turning = 0;  // radius that a pellet needs to enter in any rotation
-  for (const PelletKind& kind : scene.pellets) turning = std::max(turning, kind.shape->bounding_radius);
+  for (const PelletKind& kind : scene.pellets)
+    turning = std::max(turning, kind.shape->bounding_radius * largest_scale(kind.sizes));
   if (has_wall && c.radius > turning && feed.radius > (c.radius - turning) * (1 + 1e-9))
     problems.add("feed.radius", length_text(feed.radius),
                  fmt::format("at most {}, so that every rotation of a pellet stays clear of the wall",
@@ -199,8 +209,18 @@ std::vector<std::string> contradictions(const CaseRecord& r, const std::string& 
     if (!r.pellets[i].file.empty())
       check_unit(problems, pellet_key(r, i), r.pellets[i].file, r.pellets[i].unit);
   if (!r.container.file.empty()) check_unit(problems, "container", r.container.file, r.container.unit);
+  const bool sized = std::any_of(r.pellets.begin(), r.pellets.end(),
+                                 [](const PelletRecord& p) { return p.sizes_of_pellets.law != "one"; });
+  if (sized && r.feed_kind == "placed")
+    problems.add("pellet.sizes", "sizes of placed pellets", "nothing: each placed pellet has its own scale",
+                 "remove [pellet.sizes], or feed the pellets");
+  if (r.feed_kind == "lattice" && packs_on_lattice(r.method))
+    problems.add("feed.kind", fmt::format("\"lattice\" with method \"{}\"", r.method),
+                 "\"layers\", \"pour\" or \"placed\"",
+                 "pellets that start far above the container have no cells there");
   if (r.feed_kind != "placed") {
-    if (!r.feed.count && !r.feed.height && !r.feed.mass)
+    const bool counted = r.pellets.size() == 1 && counts_itself(r.pellets[0].sizes_of_pellets);
+    if (!r.feed.count && !r.feed.height && !r.feed.mass && !counted)
       problems.add("feed", "no end of feeding", "count, height or mass (the one reached first ends it)",
                    "for example count = 300");
     if (!(r.gravity.norm() > 0))
@@ -238,11 +258,15 @@ Scene make_scene(const CaseRecord& r, const std::string& case_file, std::vector<
     problems.guard(pellet_key(r, i), [&] {
       scene.pellets.push_back(
           {make_pellet(r, r.pellets[i]), r.pellets[i].density, r.pellets[i].share / shares});
+      scene.pellets.back().asked = size_distribution(r.pellets[i].sizes_of_pellets, r.folder);
     });
+  const bool sized = std::any_of(scene.pellets.begin(), scene.pellets.end(),
+                                 [](const PelletKind& kind) { return kind.asked.law != SizeLaw::one; });
+  if (sized && list.empty()) problems.guard("pellet.sizes", [&] { share_out_sizes(r, scene); });
   problems.guard("container", [&] { scene.container = make_container_of(r); });
   if (!list.empty()) return scene;
   for (std::size_t i = 0; i < scene.pellets.size(); ++i) {
-    check_fit(problems, scene, *scene.pellets[i].shape, pellet_key(r, i));
+    check_fit(problems, scene, scene.pellets[i], pellet_key(r, i));
     check_kernel(problems, scene, *scene.pellets[i].shape, pellet_key(r, i));
   }
   check_container(problems, scene);

@@ -66,6 +66,11 @@ class Shower : public Fields {
   void text(const Key& k, std::string& v) override { row(k, v.empty() ? "" : toml_string(v), "text"); }
   void path(const Key& k, std::string& v) override { row(k, v.empty() ? "" : toml_string(v), "a file"); }
   void vector(const Key& k, Vec3& v) override { row(k, vector_text(k, v), range_text(k)); }
+  void numbers(const Key& k, std::vector<double>& v) override {
+    std::string list;
+    for (const double x : v) list += (list.empty() ? "" : ", ") + value_text(k, x);
+    row(k, v.empty() ? "" : "[" + list + "]", "a list, each " + range_text(k));
+  }
   void rotation(const Key& k, Quat& q) override {
     row(k, fmt::format("[{}, {}, {}, {}]", q.w(), q.x(), q.y(), q.z()), "four numbers");
   }

@@ -65,6 +65,25 @@ void write_angles(const std::string& path, const Orientation& o) {
   write_atomically(path, out);
 }
 
+void write_sizes(const std::string& path, const AnalysisResult& a) {
+  std::string out =
+      "shape,from_m,to_m,diameter_m,count,number,volume,asked_number,asked_volume,coordination\n";
+  for (std::size_t i = 0; i < a.sizes.size(); ++i) {
+    const SizeRow& r = a.sizes[i];
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{}\n", r.shape, r.from_m, r.to_m,
+                   r.diameter_m, r.count, r.number, r.volume, field(r.asked_number), field(r.asked_volume),
+                   a.coordination ? field(a.coordination->by_size, i) : "");
+  }
+  write_atomically(path, out);
+}
+
+void write_coordination(const std::string& path, const Coordination& c) {
+  std::string out = "touching_pellets,count\n";
+  for (std::size_t n = 0; n < c.histogram.size(); ++n)
+    fmt::format_to(std::back_inserter(out), "{},{}\n", n, c.histogram[n]);
+  write_atomically(path, out);
+}
+
 }  // namespace
 
 void write_curves(const ResultFolder& folder, const AnalysisResult& analysis) {
@@ -72,6 +91,9 @@ void write_curves(const ResultFolder& folder, const AnalysisResult& analysis) {
   if (!analysis.radial.x_m.empty())
     write_profile(folder.file(result_file::kRadial), "wall_distance", analysis.radial);
   if (analysis.planar) write_planar(folder.file(result_file::kPlanar), *analysis.planar);
+  if (!analysis.sizes.empty()) write_sizes(folder.file(result_file::kSizes), analysis);
+  if (analysis.coordination)
+    write_coordination(folder.file(result_file::kCoordination), *analysis.coordination);
   if (!analysis.orientation) return;
   write_orientation(folder.file(result_file::kOrientation), *analysis.orientation);
   write_angles(folder.file(result_file::kAngles), *analysis.orientation);

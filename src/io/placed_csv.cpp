@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 
+#include "io/csv_table.hpp"
 #include "math/error.hpp"
 #include "math/quantity.hpp"
 
@@ -18,19 +18,9 @@ struct Column {
 };
 
 constexpr const char* kColumns =
-    "kind, x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz, fixed (x, y, z needed; units as in x_mm, vx_m/s, "
+    "kind, x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz, fixed, scale (x, y, z needed; units as in x_mm, "
+    "vx_m/s, "
     "wx_rad/s)";
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> out(1);
-  for (const char c : line) {
-    if (c == ',')
-      out.emplace_back();
-    else if (c != ' ' && c != '\t' && c != '\r')
-      out.back() += c;
-  }
-  return out;
-}
 
 std::optional<Dimension> dimension_of(const std::string& name) {
   if (name == "x" || name == "y" || name == "z") return Dimension::length;
@@ -39,11 +29,12 @@ std::optional<Dimension> dimension_of(const std::string& name) {
   return {};
 }
 
-std::vector<Column> read_header(const std::string& line, const std::string& where) {
+std::vector<Column> columns_of(const CsvLine& header) {
+  const std::string& where = header.where;
   static const std::vector<std::string> plain = {"id", "kind", "shape", "qw",   "qx",
                                                  "qy", "qz",   "fixed", "scale"};
   std::vector<Column> columns;
-  for (const std::string& cell : cells(line)) {
+  for (const std::string& cell : header.cells) {
     const std::size_t bar = cell.find('_');
     Column column{cell.substr(0, bar), bar == std::string::npos ? "" : cell.substr(bar + 1)};
     if (const auto dimension = dimension_of(column.name)) {
@@ -67,15 +58,8 @@ std::vector<Column> read_header(const std::string& line, const std::string& wher
   return columns;
 }
 
-double plain_value(const std::string& text, const std::string& where) {
-  // a length in metres is read like a plain number
-  if (text.empty() || std::isalpha(static_cast<unsigned char>(text.back())))
-    throw InputError(where, "\"" + text + "\"", "a finite number");
-  return parse_quantity(text + " m", Dimension::length, where);
-}
-
 int whole_value(const std::string& text, int high, const std::string& where) {
-  const double value = plain_value(text, where);
+  const double value = csv_number(text, where);
   if (!(value >= 0 && value <= high) || value != std::floor(value))
     throw InputError(where, "\"" + text + "\"", fmt::format("a whole number from 0 to {}", high));
   return static_cast<int>(value);
@@ -92,44 +76,31 @@ void set(PlacedPellet& p, const Column& c, const std::string& text, const std::s
   } else if (c.name == "fixed") {
     p.fixed = whole_value(text, 1, where) == 1;
   } else if (c.name == "scale") {
-    if (plain_value(text, where) != 1) throw InputError(where, text, "1: a case has no scaled pellets");
+    p.scale = csv_number(text, where);
+    if (!(p.scale > 0)) throw InputError(where, text, "greater than 0");
   } else if (c.name == "qw") {
-    p.pose.rotation.w() = plain_value(text, where);
+    p.pose.rotation.w() = csv_number(text, where);
   } else if (c.name[0] == 'q') {
-    p.pose.rotation.vec()[axis] = plain_value(text, where);
+    p.pose.rotation.vec()[axis] = csv_number(text, where);
   }
 }
 
 }  // namespace
 
 std::vector<PlacedPellet> read_placed_csv(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(path, "no readable file", "a CSV table of placed pellets");
-  std::vector<Column> columns;
+  const CsvTable table = read_csv_table(path, "pellets");
+  const std::vector<Column> columns = columns_of(table.header);
   std::vector<PlacedPellet> pellets;
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    const std::string where = fmt::format("{}:{}", path, number);
-    if (line.empty() || line[0] == '#' || line == "\r") continue;
-    if (columns.empty()) {
-      columns = read_header(line, where);
-      continue;
-    }
-    const std::vector<std::string> row = cells(line);
-    if (row.size() != columns.size())
-      throw InputError(where, fmt::format("{} values", row.size()),
-                       fmt::format("{}, as in the header", columns.size()));
+  for (const CsvLine& line : table.lines) {
     PlacedPellet pellet;
-    for (std::size_t i = 0; i < row.size(); ++i)
-      set(pellet, columns[i], row[i], where + ": " + columns[i].name);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      set(pellet, columns[i], line.cells[i], line.where + ": " + columns[i].name);
     Quat& q = pellet.pose.rotation;
     if (!(q.norm() > 1e-9 && q.norm() < 1e9))
-      throw InputError(where, "a quaternion of no length", "w, x, y, z not all zero");
+      throw InputError(line.where, "a quaternion of no length", "w, x, y, z not all zero");
     if (std::abs(q.squaredNorm() - 1) > 1e-15) q.normalize();
     pellets.push_back(pellet);
   }
-  if (pellets.empty()) throw InputError(path, "no pellets", "a header line and a line for each pellet");
   return pellets;
 }
 

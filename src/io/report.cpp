@@ -9,6 +9,7 @@
 #include <span>
 
 #include "io/atomic_file.hpp"
+#include "io/chart.hpp"
 #include "io/report/assets.hpp"
 #include "io/summary.hpp"
 
@@ -179,22 +180,8 @@ Json page_data(const PackedBed& bed, const RunRecord* record, const AnalysisResu
           {"axial", profile_json(analysis.axial)},
           {"radial", profile_json(analysis.radial)},
           {"planar", planar_json(analysis.planar)},
-          {"orientation", orientation_json(analysis.orientation)}};
-}
-
-std::string html_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
+          {"orientation", orientation_json(analysis.orientation)},
+          {"mixture", Json::parse(mixture_json(analysis))}};
 }
 
 /// JSON that cannot end the script element that it stands in.

@@ -11,8 +11,9 @@ inline constexpr std::string_view kSummary = "summary.json", kBed = "bed.h5", kB
                                   kContainerVtu = "container.vtu", kPoses = "poses.csv",
                                   kContacts = "contacts.csv", kAxial = "axial.csv", kRadial = "radial.csv",
                                   kPlanar = "planar.csv", kOrientation = "orientation.csv",
-                                  kAngles = "angles.csv", kReport = "report.html", kVoxels = "voxels.h5",
-                                  kCase = "case.toml", kCheckpoint = "checkpoint.bin",
+                                  kAngles = "angles.csv", kSizes = "sizes.csv",
+                                  kCoordination = "coordination.csv", kReport = "report.html",
+                                  kVoxels = "voxels.h5", kCase = "case.toml", kCheckpoint = "checkpoint.bin",
                                   kTrajectory = "trajectory.h5", kTrajectoryCsv = "trajectory.csv",
                                   kTrajectorySeries = "trajectory.pvd", kTrajectoryLog = "trajectory.part",
                                   kFrames = "frames";

@@ -59,11 +59,45 @@ Json wall_of(const RunRecord& r) {
           {"weight_N", r.wall.weight_N}};
 }
 
+Json core_of(const CorePorosity& c) {
+  return {{"exact", c.exact},         {"voxels", c.voxels},
+          {"shots", c.shots},         {"shots_error", c.shots_error},
+          {"cells", c.cells},         {"cell_m", c.cell_m},
+          {"cell_sd", c.cell_sd},     {"shots_per_cell", c.shots_per_cell},
+          {"margin_m", c.margin_m},   {"z_range_m", c.z_range_m},
+          {"volume_m3", c.volume_m3}, {"definition", c.definition}};
+}
+
+Json coordination_of(const Coordination& c) {
+  return {{"mean", c.mean},
+          {"core", c.core},
+          {"core_bearing", c.core_bearing},
+          {"rattlers", c.rattlers},
+          {"from", c.source}};
+}
+
+/// Asked and obtained; empty when all pellets are alike.
+Json sizes_of(const AnalysisResult& analysis) {
+  Json rows = Json::array();
+  for (const SizeRow& r : analysis.sizes)
+    rows.push_back({{"shape", r.shape},
+                    {"from_m", r.from_m},
+                    {"to_m", r.to_m},
+                    {"diameter_m", r.diameter_m},
+                    {"count", r.count},
+                    {"number", r.number},
+                    {"volume", r.volume},
+                    {"asked_number", r.asked_number},
+                    {"asked_volume", r.asked_volume}});
+  return rows;
+}
+
 Json bed_of(const std::optional<AnalysisResult>& analysis) {
   Json bed = {{"height_m", nullptr},   {"packing_density", nullptr}, {"exact_packing_density", nullptr},
               {"axial_sd", nullptr},   {"z_range_m", nullptr},       {"voxel_m", nullptr},
               {"diameter_m", nullptr}, {"definition", nullptr},      {"core_porosity", nullptr},
-              {"segregation", nullptr}};
+              {"core", nullptr},       {"segregation", nullptr},     {"coordination", nullptr},
+              {"smallest_m", nullptr}, {"largest_m", nullptr}};
   if (!analysis) return bed;
   const BulkDensity& bulk = analysis->bulk;
   bed["height_m"] = analysis->bed_height_m;
@@ -74,6 +108,14 @@ Json bed_of(const std::optional<AnalysisResult>& analysis) {
   bed["voxel_m"] = bulk.voxel_m;
   bed["diameter_m"] = bulk.diameter_m;
   bed["definition"] = bulk.definition;
+  bed["smallest_m"] = analysis->smallest_m;
+  bed["largest_m"] = analysis->largest_m;
+  if (analysis->core) {
+    bed["core_porosity"] = analysis->core->best();
+    bed["core"] = core_of(*analysis->core);
+  }
+  if (analysis->segregation) bed["segregation"] = analysis->segregation->along[2];
+  if (analysis->coordination) bed["coordination"] = coordination_of(*analysis->coordination);
   return bed;
 }
 
@@ -132,9 +174,18 @@ std::string summary_json(const Scene& scene, const RunRecord& r,
                         {"bed", bed_of(analysis)},
                         {"container", container_of(scene)},
                         {"shapes", shapes_of(scene)},
+                        {"sizes", analysis ? sizes_of(*analysis) : Json::array()},
                         {"counters", r.counters.empty() ? Json::object() : Json(r.counters)},
                         {"notes", r.notes}};
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string mixture_json(const AnalysisResult& a) {
+  const Json mixture = {{"core", a.core ? core_of(*a.core) : Json(nullptr)},
+                        {"segregation", a.segregation ? Json(a.segregation->along[2]) : Json(nullptr)},
+                        {"coordination", a.coordination ? coordination_of(*a.coordination) : Json(nullptr)},
+                        {"sizes", sizes_of(a)}};
+  return mixture.dump();
 }
 
 std::string record_json(const RunRecord& r) {

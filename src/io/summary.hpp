@@ -20,6 +20,9 @@ std::string summary_text(const Scene& scene, const RunRecord& record,
                          const std::optional<AnalysisResult>& analysis, const std::string& folder,
                          const std::string& report_path);
 
+/// Core, segregation, coordination and sizes of a bed as summary.json has them.
+std::string mixture_json(const AnalysisResult& analysis);
+
 /// The record as JSON and back, bit for bit.
 std::string record_json(const RunRecord& record);
 RunRecord record_from_json(const std::string& json);  ///< throws InputError

@@ -56,6 +56,34 @@ std::string density_line(const AnalysisResult& a) {
   return line;
 }
 
+std::string core_line(const CorePorosity& c) {
+  std::string line;
+  const auto add = [&](const char* how, double porosity) {
+    if (std::isfinite(porosity))
+      line += fmt::format("{}porosity {:.4f} {}", line.empty() ? "" : ", ", porosity, how);
+  };
+  add("exact", c.exact);
+  add("from voxels", c.voxels);
+  add(fmt::format("by shots (standard error {:.1e})", c.shots_error).c_str(), c.shots);
+  return line.empty() ? c.definition : line + " (" + c.definition + ")";
+}
+
+/// What many sizes make of a bed; empty when all are alike and nobody knows who touches whom.
+std::string mixture_line(const AnalysisResult& a) {
+  std::string line;
+  if (!a.sizes.empty()) line = fmt::format("{} sizes", a.sizes.size());
+  if (a.segregation && std::isfinite(a.segregation->along[2]))
+    line += fmt::format(", segregation {:+.4f} (+: large ones above)", a.segregation->along[2]);
+  if (a.coordination)
+    line += fmt::format(
+        "{}{:.2f} touching pellets each{}, {} rattlers", line.empty() ? "" : ", ", a.coordination->mean,
+        std::isfinite(a.coordination->core_bearing)
+            ? fmt::format(" ({:.2f} in the core, rattlers aside)", a.coordination->core_bearing)
+            : "",
+        a.coordination->rattlers);
+  return line;
+}
+
 std::string energy_line(const RunRecord& r) {
   const auto& e = r.energy;
   return fmt::format(
@@ -115,6 +143,9 @@ std::string summary_text(const Scene& scene, const RunRecord& r,
   if (analysis) {
     out += entry("bed", density_line(*analysis));
     if (!analysis->bulk.definition.empty()) out += entry("", "(" + analysis->bulk.definition + ")");
+    if (analysis->core) out += entry("core", core_line(*analysis->core));
+    if (const std::string mixture = mixture_line(*analysis); !mixture.empty())
+      out += entry("mixture", mixture);
   }
   out += run_lines(r) + audit_text(r);
   for (const std::string& note : r.notes) out += entry("note", note);

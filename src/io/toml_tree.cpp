@@ -68,7 +68,11 @@ void drop_alternatives(TomlNode& base, const TomlNode& over) {
       {"restitution", {"damping"}},
       {"stiffness", {"allowed_overlap"}},
       {"allowed_overlap", {"stiffness"}},
-      {"csv", {"placed"}},
+      {"csv", {"placed", "diameters", "fractions", "amounts"}},
+      {"diameters", {"csv"}},
+      {"fractions", {"amounts"}},
+      {"amounts", {"fractions"}},
+      {"law", {"csv", "diameters", "fractions", "amounts", "modulus", "exponent", "deviation"}},
       {"placed", {"csv"}},
       {"file", {"unit", "shape", "diameter", "height", "inner_diameter"}},
       {"shape", {"file", "unit", "recognise", "diameter", "height", "inner_diameter"}}};

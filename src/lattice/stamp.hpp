@@ -50,6 +50,17 @@ class StampMaker {
   Rasteriser rasteriser_;
 };
 
+/// Whether a cell, counted from the pellet's own, is solid.
+inline bool has_cell(const Stamp& stamp, const Cell& cell) {
+  std::size_t at[3];
+  for (std::size_t d = 0; d < 3; ++d) {
+    const int c = cell[d] - stamp.low[d];
+    if (c < 0 || c >= stamp.size[d]) return false;
+    at[d] = static_cast<std::size_t>(c);
+  }
+  return (stamp.data()[at[2] * stamp.slice() + at[0] / 64 * stamp.column() + at[1]] >> (at[0] % 64)) & 1U;
+}
+
 /// Calls visit(x, y, z) for every solid cell, counted from the pellet's cell, in the order of the bits.
 template <class Visit>
 void for_each_cell(const Stamp& stamp, const Visit& visit) {

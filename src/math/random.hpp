@@ -3,6 +3,8 @@
 // on (seed, stream, counter), so no order of evaluation and no number of threads can change it.
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "math/types.hpp"
 
@@ -19,7 +21,8 @@ enum class Stream : std::uint32_t {
   feed_velocity,
   feed_shape,
   lattice_move,
-  test
+  test,
+  feed_size
 };
 
 /// The numbers of one event of one body: Random(seed, stream, body, event) then draw in order.
@@ -39,5 +42,12 @@ class Random {
   std::array<std::uint32_t, 4> block_{};
   int used_ = 4;
 };
+
+/// Every order equally likely (Fisher & Yates).
+template <class T>
+void shuffle(std::vector<T>& items, Random& random) {
+  for (std::size_t i = items.size(); i > 1; --i)
+    std::swap(items[i - 1], items[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+}
 
 }  // namespace packbed

@@ -3,12 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "packers/feed.hpp"
+
 namespace packbed {
 
+std::pair<double, double> scales_of(const Scene& scene, std::uint32_t kind) {
+  if (scene.feed.kind != FeedKind::placed)
+    return {smallest_scale(scene.pellets[kind].sizes), largest_scale(scene.pellets[kind].sizes)};
+  std::vector<SizeClass> placed;
+  for (const PlacedPellet& p : scene.feed.placed)
+    if (p.kind == kind) placed.push_back({p.scale, 1, 0});
+  return {smallest_scale(placed), largest_scale(placed)};
+}
+
 double landing_speed(const Scene& scene) {
-  double fall = scene.feed.drop_height, speed = scene.feed.speed;
+  const bool lattice = scene.feed.kind == FeedKind::lattice;
+  double fall = lattice ? highest_of_lattice(scene) : scene.feed.drop_height;
+  double speed = lattice ? std::sqrt(3.0) * scene.feed.speed : scene.feed.speed;
   for (const PlacedPellet& p : scene.feed.placed) {
-    const double radius = scene.pellets[p.kind].shape->bounding_radius;
+    const double radius = p.scale * scene.pellets[p.kind].shape->bounding_radius;
     fall = std::max(fall, p.pose.position.z());
     speed = std::max(speed, p.velocity.norm() + radius * p.spin.norm());
   }
@@ -18,8 +31,10 @@ double landing_speed(const Scene& scene) {
 double expected_time(const Scene& scene) {
   if (scene.stepping.duration > 0) return scene.stepping.duration;
   const double g = std::max(1e-9, scene.gravity.norm());
-  const double fall = std::sqrt(2.0 * std::max(0.0, scene.feed.drop_height) / g);
-  const double layers = scene.feed.kind == FeedKind::placed
+  const bool lattice = scene.feed.kind == FeedKind::lattice;
+  const double height = lattice ? highest_of_lattice(scene) : scene.feed.drop_height;
+  const double fall = std::sqrt(2.0 * std::max(0.0, height) / g);
+  const double layers = lattice || scene.feed.kind == FeedKind::placed
                             ? 0.0
                             : std::ceil(static_cast<double>(scene.feed.count.value_or(1000)) /
                                         std::max(1, scene.feed.per_layer));

@@ -1,9 +1,13 @@
 #pragma once
 // What can be told of a run before it starts, from the scene alone.
+#include <utility>
+
 #include "bed/scene.hpp"
 
 namespace packbed {
 
+/// The smallest and the largest scale that pellets of a kind will have.
+std::pair<double, double> scales_of(const Scene& scene, std::uint32_t kind);
 /// Highest speed that a pellet can have when it lands [m/s].
 double landing_speed(const Scene& scene);
 /// Simulated time until rest [s], roughly: for the progress line.

@@ -39,15 +39,31 @@ std::uint32_t draw_kind(const Scene& scene, std::uint32_t id) {
   return static_cast<std::uint32_t>(scene.pellets.size() - 1);
 }
 
-/// All of the pellet but its place.
-Pellet make_pellet(const Scene& scene, std::uint32_t id) {
-  Pellet pellet;
-  pellet.id = id;
-  pellet.shape = draw_kind(scene, id);
-  pellet.pose.rotation = Random(scene.seed, Stream::feed_rotation, id).rotation();
-  if (scene.feed.speed > 0)
-    pellet.velocity = scene.feed.speed * Random(scene.seed, Stream::feed_velocity, id).on_sphere();
-  return pellet;
+/// Kind and scale of a pellet.
+struct Sort {
+  std::uint32_t kind = 0;
+  double scale = 1;
+};
+
+/// Everything that a scene of given sizes feeds, in random order: the totals are exact. Empty without sizes.
+std::vector<Sort> shuffled_sorts(const Scene& scene) {
+  std::vector<Sort> sorts;
+  for (std::uint32_t k = 0; k < scene.pellets.size(); ++k)
+    for (const SizeClass& c : scene.pellets[k].sizes) sorts.insert(sorts.end(), c.count, {k, c.scale});
+  Random random(scene.seed, Stream::feed_size, 0);
+  shuffle(sorts, random);
+  return sorts;
+}
+
+/// At entry: of a random direction; from a lattice, of random components.
+Vec3 entry_velocity(const Scene& scene, std::uint32_t id) {
+  const double speed = scene.feed.speed;
+  if (!(speed > 0)) return Vec3::Zero();
+  Random random(scene.seed, Stream::feed_velocity, id);
+  if (scene.feed.kind != FeedKind::lattice) return speed * random.on_sphere();
+  Vec3 velocity;
+  for (int d = 0; d < 3; ++d) velocity[d] = random.uniform(-speed, speed);
+  return velocity;
 }
 
 std::vector<Pellet> placed_pellets(const Scene& scene) {
@@ -56,6 +72,7 @@ std::vector<Pellet> placed_pellets(const Scene& scene) {
     Pellet pellet;
     pellet.id = static_cast<std::uint32_t>(pellets.size());
     pellet.shape = placed.kind;
+    pellet.scale = placed.scale;
     pellet.pose = placed.pose;
     pellet.velocity = placed.velocity;
     pellet.spin = placed.spin;
@@ -95,6 +112,9 @@ void check_settings(const Scene& scene, double pellet_radius) {
   const Feed& feed = scene.feed;
   if (!feed.count && !feed.height && !feed.mass)
     throw InputError("feed", "no end", "a count, a height or a mass", "add for example feed.count = 300");
+  if (feed.kind == FeedKind::lattice && !feed.count && !feed.mass)
+    throw InputError("feed", "a lattice that ends at a height", "a count or a mass",
+                     "all pellets of a lattice enter together, before there is a bed");
   if (!(feed.interval > 0)) throw InputError("feed.interval", "0", "greater than 0");
   if (feed.per_layer < 1) throw InputError("feed.per_layer", fmt::format("{}", feed.per_layer), "at least 1");
   const bool floor = scene.container.kind != ContainerKind::none;
@@ -108,20 +128,73 @@ void check_settings(const Scene& scene, double pellet_radius) {
 
 struct Feeder::Plan {
   explicit Plan(const Scene& s) : scene(s), test(s.pellets), room(s.container) {
-    for (const PelletKind& kind : scene.pellets) radius = std::max(radius, kind.shape->bounding_radius);
+    for (std::uint32_t k = 0; k < scene.pellets.size(); ++k) {
+      Pellet largest;
+      largest.shape = k;
+      largest.scale = largest_scale(scene.pellets[k].sizes);
+      radius = std::max(radius, test.bounding_radius(largest));
+    }
     if (scene.feed.kind == FeedKind::placed) {
       placed = placed_pellets(scene);
       check_placed(scene, test, room, placed);
       return;
     }
     check_settings(scene, radius);
+    sorts = shuffled_sorts(scene);
+    if (!sorts.empty() && scene.feed.count != static_cast<int>(sorts.size()))
+      throw InputError("feed.count", scene.feed.count ? fmt::format("{}", *scene.feed.count) : "none",
+                       fmt::format("{}, as many as there are of all sizes", sorts.size()));
     circle = feed_circle(scene, radius);
     if (scene.feed.kind == FeedKind::layers) {
       loose = layer_pattern(circle, 2 * radius, scene.feed.per_layer, true);
       dense = layer_pattern(circle, 2 * radius, scene.feed.per_layer, false);
     }
+    if (scene.feed.kind == FeedKind::lattice) plane = lattice_plane();
     check_wall();
   }
+
+  Sort sort_of(std::uint32_t id) const {
+    return sorts.empty() ? Sort{draw_kind(scene, id), 1} : sorts[std::min<std::size_t>(id, sorts.size() - 1)];
+  }
+
+  /// All of the pellet but its place.
+  Pellet make_pellet(std::uint32_t id) const {
+    Pellet pellet;
+    pellet.id = id;
+    const Sort sort = sort_of(id);
+    pellet.shape = sort.kind;
+    pellet.scale = sort.scale;
+    pellet.pose.rotation = Random(scene.seed, Stream::feed_rotation, id).rotation();
+    pellet.velocity = entry_velocity(scene, id);
+    return pellet;
+  }
+
+  double lattice_spacing() const { return scene.feed.spacing > 0 ? scene.feed.spacing : 2 * radius; }
+
+  /// Sites of one plane of the lattice: a square pattern about the axis, where the largest pellet has room.
+  std::vector<Vec2> lattice_plane() const {
+    const double spacing = lattice_spacing();
+    if (spacing < 2 * radius * (1 - 1e-9))
+      throw InputError("feed.spacing", millimetres(spacing),
+                       fmt::format("at least {}", millimetres(2 * radius)),
+                       "the largest pellets would overlap: leave it out for the closest lattice");
+    const int across = static_cast<int>(std::floor(2 * circle / spacing * (1 + 1e-9))) + 1;
+    const auto at = [&](int i) { return (i - 0.5 * (across - 1)) * spacing; };
+    std::vector<Vec2> sites;
+    for (int j = 0; j < across; ++j)
+      for (int i = 0; i < across; ++i)
+        if (in_circle({at(i), at(j)}) && room.holds_sphere({at(i), at(j), scene.feed.drop_height}, radius))
+          sites.emplace_back(at(i), at(j));
+    if (sites.empty()) throw InputError("feed.spacing", millimetres(spacing), "room for one site in a plane");
+    return sites;
+  }
+
+  std::size_t lattice_count() const {
+    return static_cast<std::size_t>(allowance(0, 0, std::numeric_limits<int>::max()));
+  }
+  std::size_t last_level(std::size_t count) const { return (count - 1) / plane.size(); }
+
+  bool in_circle(const Vec2& site) const { return site.norm() <= circle * (1 + 1e-9); }
 
   /// A mesh container has to leave room somewhere at a fixed drop height.
   void check_wall() const {
@@ -154,7 +227,8 @@ struct Feeder::Plan {
     if (!scene.feed.mass) return n;
     int within = 0;
     while (within < n && mass < *scene.feed.mass) {
-      mass += mass_of(scene, draw_kind(scene, static_cast<std::uint32_t>(fed + within)), 1);
+      const Sort sort = sort_of(static_cast<std::uint32_t>(fed + within));
+      mass += mass_of(scene, sort.kind, sort.scale);
       ++within;
     }
     return within;
@@ -165,8 +239,9 @@ struct Feeder::Plan {
     if (feed.kind == FeedKind::placed) return static_cast<int>(placed.size());
     double mean_volume = 0, mean_mass = 0;
     for (std::uint32_t k = 0; k < scene.pellets.size(); ++k) {
-      mean_volume += scene.pellets[k].share * scene.pellets[k].shape->volume;
-      mean_mass += scene.pellets[k].share * mass_of(scene, k, 1);
+      const double share = scene.pellets[k].share * mean_cubed_scale(scene.pellets[k].sizes);
+      mean_volume += share * scene.pellets[k].shape->volume;
+      mean_mass += share * mass_of(scene, k, 1);
     }
     double n = feed.count ? *feed.count : kForever;
     if (feed.mass) n = std::min(n, std::ceil(*feed.mass / mean_mass));
@@ -182,7 +257,9 @@ struct Feeder::Plan {
   Room room;
   double radius = 0;  // of the largest bounding sphere [m]
   double circle = 0;  // radius of the feed circle [m]
+  std::vector<Sort> sorts;
   LayerPattern loose, dense;
+  std::vector<Vec2> plane;  // of the lattice
   std::vector<Pellet> placed;
 };
 
@@ -221,6 +298,9 @@ std::vector<Pellet> Feeder::enter(double time, std::span<const Pellet> present, 
   if (feed.kind == FeedKind::placed) {
     entering = plan_->placed;
     wanted = static_cast<int>(entering.size());
+  } else if (feed.kind == FeedKind::lattice) {
+    entering = enter_lattice();
+    wanted = static_cast<int>(entering.size());
   } else {
     if (feed.height && surface >= *feed.height) {
       state_.done = 1;
@@ -241,7 +321,8 @@ std::vector<Pellet> Feeder::enter(double time, std::span<const Pellet> present, 
   state_.waiting = static_cast<int>(entering.size()) < wanted;
   state_.attempt = entering.empty() ? state_.attempt + 1 : 0;
   state_.next_time += entering.empty() ? kWait * feed.interval : feed.interval;
-  if (feed.kind == FeedKind::placed || plan_->allowance(state_.fed, state_.mass, 1) < 1) state_.done = 1;
+  const bool at_once = feed.kind == FeedKind::placed || feed.kind == FeedKind::lattice;
+  if (at_once || plan_->allowance(state_.fed, state_.mass, 1) < 1) state_.done = 1;
   return entering;
 }
 
@@ -258,7 +339,7 @@ std::vector<Pellet> Feeder::enter_layer(std::span<const Pellet> near, double hei
     for (int plane = 0; plane < planes; ++plane)
       for (const Vec2& site : shaken(pattern, plan_->circle, random)) {
         if (static_cast<int>(layer.size()) == count) break;
-        Pellet pellet = make_pellet(plan_->scene, first + static_cast<std::uint32_t>(layer.size()));
+        Pellet pellet = plan_->make_pellet(first + static_cast<std::uint32_t>(layer.size()));
         pellet.pose.position = {site.x(), site.y(), height + plane * 2 * plan_->radius * (1 + 1e-6)};
         if (plan_->free(pellet, near, {})) layer.push_back(pellet);
       }
@@ -267,10 +348,38 @@ std::vector<Pellet> Feeder::enter_layer(std::span<const Pellet> near, double hei
   return {};
 }
 
+double Feeder::highest() const {
+  return plan_->scene.feed.drop_height +
+         static_cast<double>(plan_->last_level(plan_->lattice_count())) * plan_->lattice_spacing();
+}
+
+/// Planes from the drop height upwards; the last one is filled at random sites.
+std::vector<Pellet> Feeder::enter_lattice() const {
+  const Scene& scene = plan_->scene;
+  std::vector<Vec2> plane = plan_->plane;
+  Random random(scene.seed, Stream::feed_position, 0);
+  const std::size_t count = plan_->lattice_count(), last = plan_->last_level(count);
+  std::vector<Pellet> entering;
+  entering.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = i % plane.size(), level = i / plane.size();
+    if (at == 0 && level == last) shuffle(plane, random);
+    Pellet pellet = plan_->make_pellet(static_cast<std::uint32_t>(i));
+    pellet.pose.position = {plane[at].x(), plane[at].y(),
+                            scene.feed.drop_height + static_cast<double>(level) * plan_->lattice_spacing()};
+    entering.push_back(pellet);
+  }
+  return entering;
+}
+
+double highest_of_lattice(const Scene& scene) {
+  return Feeder(scene).highest();
+}
+
 std::vector<Pellet> Feeder::enter_handful(std::span<const Pellet> near, double height, int count) {
   std::vector<Pellet> handful;
   for (int i = 0; i < count; ++i) {
-    Pellet pellet = make_pellet(plan_->scene, static_cast<std::uint32_t>(state_.fed + i));
+    Pellet pellet = plan_->make_pellet(static_cast<std::uint32_t>(state_.fed + i));
     Random random(plan_->scene.seed, Stream::feed_position, pellet.id,
                   static_cast<std::uint32_t>(state_.attempt));
     bool free = false;

@@ -1,10 +1,13 @@
 #pragma once
-// Which pellets enter a scene, when and where: shared by every packer. What pellet number 17 is and how it is
-// turned depends on (seed, 17) alone; where it enters depends on (seed, first pellet of its layer, attempt).
+// Which pellets enter a scene, when and where: shared by every packer. What pellet number 17 is, how large
+// and how turned, depends on (seed, 17) alone (of given sizes, on the place of 17 in a random order of all
+// that are fed); where it enters depends on (seed, first pellet of its layer, attempt).
 //
 //   layers   o o o o   n pellets in one plane on a hexagonal pattern, turned and shaken anew for each layer;
 //            o o o o   several planes when one has no room for n
 //   pour      o  o o   a handful at random points of a circle, drawn again where they would overlap
+//   lattice  o o o o   all at time 0 on a cubic lattice from the drop height upwards, each with a velocity of
+//            o o o o   random components
 //   placed             all that the case lists, at time 0
 #include <cstddef>
 #include <limits>
@@ -36,6 +39,7 @@ class Feeder {
   /// of its pellets lets these in and waits with the rest.
   std::vector<Pellet> enter(double time, std::span<const Pellet> present, double surface);
 
+  double highest() const;   ///< of the centres of a lattice [m]
   int fed() const;          ///< pellets that have entered
   double fed_mass() const;  ///< [kg]
   /// Pellets that will have entered at the end. For a fill to a height only, an estimate (packing density
@@ -60,7 +64,11 @@ class Feeder {
   State state_;
 
   std::vector<Pellet> enter_layer(std::span<const Pellet> near, double height, int count);
+  std::vector<Pellet> enter_lattice() const;
   std::vector<Pellet> enter_handful(std::span<const Pellet> near, double height, int count);
 };
+
+/// Height of the centres of the highest plane of a scene that starts from a lattice [m].
+double highest_of_lattice(const Scene& scene);
 
 }  // namespace packbed

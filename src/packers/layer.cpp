@@ -62,8 +62,7 @@ LayerPattern layer_pattern(double radius, double spacing, int wanted, bool loose
 std::vector<Vec2> shaken(const LayerPattern& pattern, double radius, Random& random) {
   std::vector<Vec2> sites = pattern.sites;
   const Eigen::Rotation2Dd turn(random.uniform(0, 2 * kPi));
-  for (std::size_t i = sites.size(); i > 1; --i)  // Fisher & Yates
-    std::swap(sites[i - 1], sites[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+  shuffle(sites, random);
   for (Vec2& site : sites) {
     site = turn * site;
     const double angle = random.uniform(0, 2 * kPi), r = pattern.shake * std::sqrt(random.uniform());

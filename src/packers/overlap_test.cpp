@@ -66,7 +66,8 @@ OverlapTest::OverlapTest(const std::vector<PelletKind>& kinds) {
 OverlapTest::~OverlapTest() = default;
 
 double OverlapTest::bounding_radius(const Pellet& pellet) const {
-  return bodies_[pellet.shape]->shape->bounding_radius * pellet.scale;
+  const Shape& shape = *bodies_[pellet.shape]->shape;  // a sphere's own bounding radius holds its facets too
+  return (shape.kind == ShapeClass::sphere ? shape.radius : shape.bounding_radius) * pellet.scale;
 }
 
 bool OverlapTest::exact(std::uint32_t shape) const {

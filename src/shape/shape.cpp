@@ -155,7 +155,7 @@ std::string_view to_string(ShapeClass kind) {
 }
 
 double Shape::equivalent_diameter() const {
-  return std::cbrt(6 * volume / kPi);
+  return kind == ShapeClass::sphere ? 2 * radius : std::cbrt(6 * volume / kPi);
 }
 
 ShapePtr make_sphere(const std::string& name, double radius, int facets) {

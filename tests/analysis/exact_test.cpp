@@ -104,11 +104,8 @@ TEST(RingVolumes, OfASphereOnTheAxis) {
   const auto within = [](double r) {  // sphere with the part outside the cylinder of radius r taken off
     return 4 * kPi / 3 * (std::pow(kR, 3) - std::pow(std::max(0.0, kR * kR - r * r), 1.5));
   };
-  // the ring that holds the sphere's equator has a square root at its end that the rule over radii does not
-  // resolve
   for (std::size_t k = 0; k < rings.size(); ++k)
-    EXPECT_NEAR(rings[k], within(radii[k + 1]) - within(radii[k]),
-                (radii[k + 1] > 1.4e-3 ? 5e-4 : 1e-5) * bed.shapes[0]->volume);
+    EXPECT_NEAR(rings[k], within(radii[k + 1]) - within(radii[k]), 1e-12 * bed.shapes[0]->volume);
 }
 
 TEST(RingVolumes, OfUprightCylindersAreDiscsThatTheRingsCut) {

@@ -147,7 +147,8 @@ TEST(CaseRefuses, PouringWithoutGravity) {
 
 TEST(CaseRefuses, WrongWordOfAList) {
   expect_refused("\"layers\"", "\"layer\"",
-                 {"bed.toml:14: feed.kind", "\"layers\", \"pour\", \"placed\"", "did you mean \"layers\"?"});
+                 {"bed.toml:14: feed.kind", "\"layers\", \"pour\", \"lattice\", \"placed\"",
+                  "did you mean \"layers\"?"});
   expect_refused("\"tube\"", "3", {"container.shape", "found 3"});
   EXPECT_NE(refusal("method = \"digipak\"\n" + kCase).find("\"mesh\""), std::string::npos);
 }
@@ -155,8 +156,7 @@ TEST(CaseRefuses, WrongWordOfAList) {
 TEST(CaseRefuses, KeyThatHasNoMeaningHere) {
   expect_refused("shape = \"cylinder\"", "shape = \"sphere\"",
                  {"bed.toml:4: pellet.height", "only with shape = \"cylinder\" or \"ring\""});
-  expect_refused("kind = \"layers\"", "kind = \"placed\"",
-                 {"feed.count", "only with kind = \"layers\" or \"pour\""});
+  expect_refused("kind = \"layers\"", "kind = \"placed\"", {"feed.count", "only with kind not \"placed\""});
 }
 
 TEST(CaseRefuses, ShapeOrFileNotGiven) {
@@ -259,7 +259,8 @@ TEST_F(PlacedTable, IsReadWithItsUnits) {
 }
 
 TEST_F(PlacedTable, ReadsThePosesOfAnotherBed) {
-  const Scene s = read_case(with("id,shape,x_m,y_m,z_m,qw,qx,qy,qz,scale\n0,0,0.001,0,0.002,1,0,0,0,1\n"));
+  const Scene s = read_case(with("id,shape,x_m,y_m,z_m,qw,qx,qy,qz,scale\n0,0,0.001,0,0.002,1,0,0,0,0.5\n"));
+  EXPECT_EQ(s.feed.placed.at(0).scale, 0.5);
   EXPECT_EQ(s.feed.placed.at(0).pose.position, Vec3(0.001, 0, 0.002));
 }
 
@@ -274,7 +275,7 @@ TEST_F(PlacedTable, IsRefusedForAReason) {
   EXPECT_NE(said("x_mm,y_mm,z_mm\n1,nan,3\n").find("pellets.csv:2: y"), std::string::npos);
   EXPECT_NE(said("x_mm,y_mm,z_mm,qw\n1,2,3,0\n").find("quaternion"), std::string::npos);
   EXPECT_NE(said("x_mm,y_mm,z_mm,kind\n1,2,3,1.5\n").find("whole number"), std::string::npos);
-  EXPECT_NE(said("x_mm,y_mm,z_mm,scale\n1,2,3,2\n").find("no scaled pellets"), std::string::npos);
+  EXPECT_NE(said("x_mm,y_mm,z_mm,scale\n1,2,3,0\n").find("greater than 0"), std::string::npos);
   EXPECT_NE(said("x_mm,y_mm,z_mm\n").find("no pellets"), std::string::npos);
   EXPECT_NE(said("").find("no pellets"), std::string::npos);
 }

@@ -39,6 +39,30 @@ TEST(Summary, HoldsEveryAgreedKeyWithItsType) {
   EXPECT_TRUE(s.at("bed").at("segregation").is_null());
 }
 
+TEST(Summary, HoldsCoreSegregationContactsAndSizesWhereThereAreSome) {
+  AnalysisResult a = sample_analysis(sample_bed());
+  a.smallest_m = 1e-3;
+  a.largest_m = 2e-3;
+  a.core.emplace();
+  a.core->voxels = 0.41;
+  a.core->shots = 0.42;
+  a.segregation.emplace();
+  a.segregation->along = {0.1, 0.2, 0.3};
+  a.coordination.emplace();
+  a.coordination->mean = 5.5;
+  a.sizes = {{.diameter_m = 2e-3, .count = 7, .number = 1, .volume = 1}};
+  const Json s = Json::parse(summary_json(sample_scene(), sample_record(), a));
+  EXPECT_EQ(s["bed"]["core_porosity"], 0.41) << "voxels come before shots";
+  EXPECT_EQ(s["bed"]["core"]["shots"], 0.42);
+  EXPECT_TRUE(s["bed"]["core"]["exact"].is_null());
+  EXPECT_EQ(s["bed"]["segregation"], 0.3) << "along the height";
+  EXPECT_EQ(s["bed"]["coordination"]["mean"], 5.5);
+  EXPECT_EQ(s["bed"]["largest_m"], 2e-3);
+  ASSERT_EQ(s["sizes"].size(), 1u);
+  EXPECT_EQ(s["sizes"][0]["count"], 7);
+  EXPECT_TRUE(s["sizes"][0]["asked_number"].is_null());
+}
+
 TEST(Summary, SaysWhatTheRecordSays) {
   const Json s = sample_summary();
   const RunRecord r = sample_record();

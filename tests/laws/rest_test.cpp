@@ -47,6 +47,20 @@ TEST(Stack, OfTenCoaxialCylindersStands) {
   EXPECT_NEAR(r.result.record.wall.base_force_N / (10 * weight), 1, 1e-3);
 }
 
+// Two balls that are placed k delta^2 / 2 deep in each other part with that energy, and the ledger knows it.
+TEST(PlacedInEachOther, BodiesPartWithTheEnergyOfTheirOverlap) {
+  const double radius = 2e-3, overlap = 0.02e-3;
+  Scene s = scene(ContainerKind::none, make_sphere("ball", radius));
+  set_contact(s, 0, 0);
+  place(s, {0, 0, 0});
+  place(s, {2 * radius - overlap, 0, 0});
+  const Course r = run(s, 2e-3);
+  const double energy = 0.5 * s.pellet_contact.stiffness * overlap * overlap;
+  EXPECT_NEAR(kinetic(s, r.end(0)) + kinetic(s, r.end(1)), energy, 0.01 * energy);
+  EXPECT_NEAR(r.result.record.energy.input, energy, 1e-6 * energy);
+  EXPECT_LT(r.result.record.energy.ledger_error, 0.01);
+}
+
 // One ball in the hollow of three fixed ones that touch each other: each carries W / sqrt(6), along the line
 // of centres.
 TEST(ThreeFixedBalls, CarryAFourthWithItsWeightOverRootSix) {

@@ -109,6 +109,23 @@ TEST(DigiPac, ReboundSetsHowOftenAPelletRises) {
   EXPECT_NEAR(fallen(1), 0, 4 * std::sqrt(60.0));
 }
 
+// Both pellets of a collision feel it: a ball on the floor, which its own collisions only push up, is pushed
+// aside by one that comes down beside its top, away from it; and this one rolls off to the other side.
+TEST(DigiCgp, APelletIsPushedAsideByTheOneThatLandsOnIt) {
+  Scene s = pour("digicgp");
+  s.pellets = {{test::sphere(2e-3), 1000, 1}};
+  s.container = make_tube("tube", 40e-3, 40e-3);
+  s.feed.kind = FeedKind::placed;
+  s.feed.placed = {{}, {}};
+  s.feed.placed[0].pose.position = {0, 0, 2.02e-3};
+  s.feed.placed[1].pose.position = {1e-3, 0, 6.5e-3};
+  s.lattice.max_steps = 60;
+  s.lattice.rest_window = 1000;
+  const std::vector<Pellet> pellets = pack_lattice(s, {}).bed.pellets;
+  EXPECT_LT(pellets[0].pose.position.x(), -2 * s.lattice.voxel);
+  EXPECT_GT(pellets[1].pose.position.x(), 1e-3 + 2 * s.lattice.voxel);
+}
+
 TEST(Lattice, AnyContainerAndAMeshPellet) {
   Scene s = pour("digipac");
   auto prism = std::make_shared<Shape>(*test::cylinder(4e-3, 3e-3));

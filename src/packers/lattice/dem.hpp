@@ -60,7 +60,6 @@ struct DemState {
 
   Occupancy walls;  // pellets are never written into it
   Bodies bodies;
-  std::vector<double> scale;
   std::vector<Quat> drawn;   // rotation that the stamp was made at
   std::vector<Cell> cell;    // that the stamp is laid at
   std::vector<Vec3> offset;  // of the centre of mass from the stamp's own [m], written by drift
@@ -78,7 +77,7 @@ struct DemState {
   double peak = 0;  // deepest touch of the run [m]
   double wall_s = 0, cpu_s = 0;
 
-  std::size_t size() const { return scale.size(); }
+  std::size_t size() const { return bodies.size(); }
 };
 
 DemModel make_dem_model(const Scene& scene);

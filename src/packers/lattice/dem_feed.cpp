@@ -20,8 +20,8 @@ void enter(const DemModel& model, DemState& state, const Pellet& p, StampMaker& 
   body.velocity = p.velocity;
   body.spin = p.spin;
   body.fixed = p.fixed;
+  body.scale = p.scale;
   add_body(state.bodies, body);
-  state.scale.push_back(p.scale);
   state.drawn.push_back(p.pose.rotation);
   state.cell.push_back({0, 0, 0});
   state.offset.push_back(Vec3::Zero());
@@ -53,7 +53,7 @@ void redraw(const DemModel& model, DemState& state, std::size_t i, StampMaker& m
   const Shape& shape = *model.base.kind(state.bodies.kind[i]).shape;
   state.drawn[i] = state.bodies.rotation[i];
   state.turn[i] = Vec3::Zero();
-  state.stamp[i] = maker.make_true(shape, state.scale[i], state.drawn[i], state.phase[i]);
+  state.stamp[i] = maker.make_true(shape, state.bodies.scale[i], state.drawn[i], state.phase[i]);
   relay(model, state, i);
 }
 
@@ -75,7 +75,7 @@ std::vector<Pellet> pellets_of(const DemState& state) {
     pellets[i].id = static_cast<std::uint32_t>(i);
     pellets[i].shape = b.kind[i];
     pellets[i].pose = {b.position[i], b.rotation[i]};
-    pellets[i].scale = state.scale[i];
+    pellets[i].scale = state.bodies.scale[i];
     pellets[i].velocity = b.velocity[i];
     pellets[i].spin = b.spin[i];
     pellets[i].fixed = b.motion[i] == Motion::fixed;

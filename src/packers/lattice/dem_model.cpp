@@ -25,7 +25,7 @@ DemLaw law_of(const Scene& scene, const DemModel& model, const ContactLaw& law) 
     for (std::size_t k = 0; k < model.mass.size(); ++k)
       out.stiffness = std::max(
           out.stiffness,
-          model.mass[k] *
+          largest_scale(scene.pellets[k].sizes) * model.mass[k] *
               std::pow(speed / (law.allowed_overlap * scene.pellets[k].shape->smallest_thickness), 2));
   return out;
 }

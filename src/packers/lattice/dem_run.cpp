@@ -14,17 +14,18 @@
 namespace packbed::lattice {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'44000001;  // changes with any change of DemState
+constexpr std::uint64_t kFormat = 0x706b6264'44000002;  // changes with any change of DemState
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>
 void visit(Archive& io, S& s) {
   auto& b = s.bodies;
-  io(b.kind), io(b.inverse_mass), io(b.mass), io(b.inertia), io(b.inverse_inertia), io(b.bounding_radius);
+  io(b.kind), io(b.inverse_mass), io(b.mass), io(b.inertia), io(b.inverse_inertia), io(b.bounding_radius),
+      io(b.scale);
   io(b.position), io(b.rotation), io(b.axis), io(b.velocity), io(b.angular_momentum), io(b.spin),
       io(b.travel);
   io(b.force), io(b.torque), io(b.motion);
-  io(s.scale), io(s.drawn), io(s.cell), io(s.offset), io(s.turn), io(s.phase), io(s.version), io(s.touches),
+  io(s.drawn), io(s.cell), io(s.offset), io(s.turn), io(s.phase), io(s.version), io(s.touches),
       io(s.listed_at), io(s.search_due), io(s.at_rest), io(s.waited);
   io(s.time), io(s.steps), io(s.snapshots), io(s.searches);
   io(s.rest_since), io(s.rest_speed), io(s.rest_drift), io(s.rest_anchor), io(s.peak), io(s.wall_s),
@@ -35,7 +36,7 @@ void restore(std::span<const std::byte> bytes, const DemModel& model, DemState& 
   restore_checkpoint(bytes, "digidem packing", kFormat, feeder, [&](ArchiveReader& io) { visit(io, state); });
   StampMaker maker(model.base.frame.pitch, model.base.largest);
   for (std::size_t i = 0; i < state.size(); ++i)
-    state.stamp.push_back(maker.make(*model.base.kind(state.bodies.kind[i]).shape, state.scale[i],
+    state.stamp.push_back(maker.make(*model.base.kind(state.bodies.kind[i]).shape, state.bodies.scale[i],
                                      state.drawn[i], state.phase[i]));
 }
 

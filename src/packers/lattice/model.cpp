@@ -25,7 +25,7 @@ double round_down(double v) {
 
 void check_thickness(const Scene& scene, double voxel) {
   for (const PelletKind& kind : scene.pellets) {
-    const double thin = kind.shape->smallest_thickness;
+    const double thin = kind.shape->smallest_thickness * smallest_scale(kind.sizes);
     if (thin < 2 * voxel * (1 - 1e-9))
       throw InputError(
           "lattice.voxel",
@@ -131,7 +131,7 @@ Model make_model(const Scene& scene) {
   model.scene = &scene;
   model.method = scene.method == "digicgp" ? Method::digicgp : Method::digipac;
   for (const PelletKind& kind : scene.pellets)
-    model.largest = std::max(model.largest, kind.shape->bounding_radius);
+    model.largest = std::max(model.largest, kind.shape->bounding_radius * largest_scale(kind.sizes));
   model.rules = settled(scene, model.largest);
   check_thickness(scene, model.rules.voxel);
   model.frame = lattice_frame(scene, model.rules.voxel, model.largest);

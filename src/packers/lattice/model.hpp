@@ -32,6 +32,12 @@ struct Guide {
   std::uint64_t free = 1;      // nothing stopped it
 };
 
+/// What a collision of digicgp does to one of the two pellets.
+struct Push {
+  std::uint32_t pellet = 0;
+  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+};
+
 /// Moves tried and made since the start.
 struct Tally {
   double moves = 0, moved = 0, rotations = 0, rotated = 0;
@@ -55,8 +61,12 @@ struct State {
   std::vector<Cell> cell;   // that the centre of mass is in
   std::vector<Vec3> phase;  // of the centre of mass from the centre of that cell [cells]
   std::vector<Stamp> stamp;
-  std::vector<Guide> guide;     // digicgp
-  std::vector<Pellet> waiting;  // fed, but there is no room for them yet
+  std::vector<Guide> guide;  // digicgp
+  // digicgp: pellets that may reach pellet i before the next search, near[near_from[i] .. near_from[i + 1])
+  std::vector<std::uint32_t> near_from, near;
+  std::vector<Cell> near_since;  // cells of the pellets at the search
+  std::vector<int> slab;         // of height, in this step
+  std::vector<Pellet> waiting;   // fed, but there is no room for them yet
 
   std::int64_t steps = 0;
   double mean_height = 0;          // of the cells at the start of the rest window [cells]

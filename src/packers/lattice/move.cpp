@@ -9,15 +9,17 @@ namespace packbed::lattice {
 namespace {
 
 /// Pellets by slab. The slabs' boundaries are elsewhere in every step, so that they leave no mark.
-std::vector<std::vector<std::uint32_t>> slabs_of(const Model& model, const State& state) {
+std::vector<std::vector<std::uint32_t>> slabs_of(const Model& model, State& state) {
   Random random(model.scene->seed, Stream::lattice_move, 0xffffffff, static_cast<std::uint32_t>(state.steps));
   const int shift = static_cast<int>(random.uniform() * model.slab);
   std::vector<std::vector<std::uint32_t>> slabs(
       static_cast<std::size_t>((model.frame.size[2] + shift) / model.slab + 1));
-  for (std::size_t i = 0; i < state.size(); ++i)
+  state.slab.resize(state.size());
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state.slab[i] = (state.cell[i][2] + shift) / model.slab;
     if (!state.fixed[i])
-      slabs[static_cast<std::size_t>((state.cell[i][2] + shift) / model.slab)].push_back(
-          static_cast<std::uint32_t>(i));
+      slabs[static_cast<std::size_t>(state.slab[i])].push_back(static_cast<std::uint32_t>(i));
+  }
   return slabs;
 }
 
@@ -25,16 +27,18 @@ std::vector<std::vector<std::uint32_t>> slabs_of(const Model& model, const State
 
 void move(const Model& model, State& state) {
   const auto slabs = slabs_of(model, state);
-  std::vector<Tally> tallies(slabs.size());
-  const auto turns = model.method == Method::digicgp ? move_digicgp : move_digipac;
+  const bool guided = model.method == Method::digicgp;
+  if (guided) find_near(model, state);
+  std::vector<Turns> turns(slabs.size());
   for (std::size_t parity = 0; parity < 2; ++parity)
     parallel_for((slabs.size() + 1 - parity) / 2, 1, [&](std::size_t begin, std::size_t end) {
       StampMaker maker(model.frame.pitch, model.largest);
       for (std::size_t k = begin; k < end; ++k)
         for (const std::uint32_t i : slabs[2 * k + parity])
-          turns(model, state, i, maker, tallies[2 * k + parity]);
+          (guided ? move_digicgp : move_digipac)(model, state, i, maker, turns[2 * k + parity]);
     });
-  for (const Tally& t : tallies) state.tally.add(t);
+  for (const Turns& t : turns) state.tally.add(t.tally);
+  if (guided) take_guides(state, turns);
   ++state.steps;
 }
 
@@ -76,15 +80,15 @@ bool try_rotation(const Model& model, State& state, std::size_t i, const Vec3& a
   return free;
 }
 
-void move_digipac(const Model& model, State& state, std::size_t i, StampMaker& maker, Tally& tally) {
+void move_digipac(const Model& model, State& state, std::size_t i, StampMaker& maker, Turns& turns) {
   Random random = numbers_of(model, state, i);
   const LatticeRules& rules = model.rules;
   const std::uint32_t way = random.bits();
-  try_move(state, i, 2, random.uniform() < 0.5 * rules.rebound ? 1 : -1, tally);
-  try_move(state, i, static_cast<int>(way & 1U), way & 2U ? 1 : -1, tally);
+  try_move(state, i, 2, random.uniform() < 0.5 * rules.rebound ? 1 : -1, turns.tally);
+  try_move(state, i, static_cast<int>(way & 1U), way & 2U ? 1 : -1, turns.tally);
   if (random.uniform() >= rules.rotation_share) return;
   const double angle = random.uniform() * rules.max_angle;
-  try_rotation(model, state, i, random.on_sphere(), angle, maker, tally);
+  try_rotation(model, state, i, random.on_sphere(), angle, maker, turns.tally);
 }
 
 }  // namespace packbed::lattice

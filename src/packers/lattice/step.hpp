@@ -4,6 +4,7 @@
 #include <functional>
 #include <string_view>
 
+#include "dynamics/neighbours.hpp"
 #include "math/random.hpp"
 #include "packers/feed.hpp"
 #include "packers/lattice/model.hpp"
@@ -21,9 +22,20 @@ void move(const Model& model, State& state);
 /// Asks every rest_window steps how far the bed has sunk.
 void rest(const Model& model, State& state, const Feeder& feeder);
 
+/// What comes of the turns of a slab's pellets.
+struct Turns {
+  Tally tally;
+  std::vector<Push> pushes;  // digicgp: in the order of the turns
+};
+
 /// The moves of one pellet: without forces, and guided by the cells that it collides with.
-void move_digipac(const Model& model, State& state, std::size_t i, StampMaker& maker, Tally& tally);
-void move_digicgp(const Model& model, State& state, std::size_t i, StampMaker& maker, Tally& tally);
+void move_digipac(const Model& model, State& state, std::size_t i, StampMaker& maker, Turns& turns);
+void move_digicgp(const Model& model, State& state, std::size_t i, StampMaker& maker, Turns& turns);
+
+/// digicgp: who may collide with whom in this step.
+void find_near(const Model& model, State& state);
+/// digicgp: the collisions of a step guide the next one.
+void take_guides(State& state, const std::vector<Turns>& turns);
 
 /// Moves a pellet by one cell unless it would share a cell then.
 bool try_move(State& state, std::size_t i, int axis, int sign, Tally& tally);

@@ -11,6 +11,7 @@ Pellet pellet_of(const State& state, std::size_t i) {
   Pellet p;
   p.id = static_cast<std::uint32_t>(i);
   p.shape = b.kind[i];
+  p.scale = b.scale[i];
   p.pose = {b.position[i], b.rotation[i]};
   p.velocity = b.velocity[i];
   p.spin = spin_of(b, i);  // bodies.spin is of the middle of the step

@@ -5,14 +5,15 @@
 namespace packbed::mesh {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'00000005;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'00000007;  // changes with any change of State
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>
 void visit(Archive& io, S& s) {
   io(s.time), io(s.steps);
   auto& b = s.bodies;
-  io(b.kind), io(b.inverse_mass), io(b.mass), io(b.inertia), io(b.inverse_inertia), io(b.bounding_radius);
+  io(b.kind), io(b.inverse_mass), io(b.mass), io(b.inertia), io(b.inverse_inertia), io(b.bounding_radius),
+      io(b.scale);
   io(b.position), io(b.rotation), io(b.axis), io(b.velocity), io(b.angular_momentum), io(b.spin),
       io(b.velocity_ahead), io(b.spin_ahead), io(b.travel);
   io(b.force), io(b.torque), io(b.motion);

@@ -10,7 +10,12 @@ namespace packbed::mesh {
 namespace {
 
 FieldPellet field_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
-  return {model.kinds[bodies.kind[i]].field.get(), {bodies.position[i], bodies.rotation[i]}, 1.0};
+  return {model.kinds[bodies.kind[i]].field.get(), {bodies.position[i], bodies.rotation[i]}, bodies.scale[i]};
+}
+
+/// Of a sphere; its bounding radius holds the facets of its surface too.
+double radius_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
+  return bodies.scale[i] * model.kinds[bodies.kind[i]].shape->radius;
 }
 
 Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t which,
@@ -20,11 +25,12 @@ Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std:
   if (which == kSolid) return touch_container(field_of(model, bodies, a), *model.wall_field, &gap);
   const double tube = model.container.radius;
   const bool floor = which == kFloor;
-  gap = (floor ? x.z() : tube - std::hypot(x.x(), x.y())) - kind.bounding_radius;
+  gap = (floor ? x.z() : tube - std::hypot(x.x(), x.y())) - bodies.bounding_radius[a];
   if (gap > 0) return {};
   switch (kind.kernel) {
     case Kernel::sphere:
-      return floor ? touch_floor(x, kind.shape->radius) : touch_tube(x, kind.shape->radius, tube);
+      return floor ? touch_floor(x, radius_of(model, bodies, a))
+                   : touch_tube(x, radius_of(model, bodies, a), tube);
     case Kernel::cylinder:
       return floor ? touch_floor(rod_of(model, bodies, a), gap)
                    : touch_tube(rod_of(model, bodies, a), tube, gap);
@@ -48,7 +54,8 @@ Touch touch_rods(const Rod& a, const Rod& b, PairRecord& record, double& gap) {
 
 Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
   const Shape& shape = *model.kinds[bodies.kind[i]].shape;
-  return {bodies.position[i], bodies.axis[i], shape.radius, shape.half_height};
+  const double scale = bodies.scale[i];
+  return {bodies.position[i], bodies.axis[i], scale * shape.radius, scale * shape.half_height};
 }
 
 Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, PairRecord& record,
@@ -57,10 +64,10 @@ Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair,
   if (is_container(b)) return touch_wall(model, bodies, a, b, gap);
   const Kind &ka = model.kinds[bodies.kind[a]], &kb = model.kinds[bodies.kind[b]];
   const Vec3 &xa = bodies.position[a], &xb = bodies.position[b];
-  gap = (xa - xb).norm() - ka.bounding_radius - kb.bounding_radius;
+  gap = (xa - xb).norm() - bodies.bounding_radius[a] - bodies.bounding_radius[b];
   if (gap > 0) return {};
   if (ka.kernel == Kernel::sphere && kb.kernel == Kernel::sphere)
-    return touch_spheres(xa, ka.shape->radius, xb, kb.shape->radius);
+    return touch_spheres(xa, radius_of(model, bodies, a), xb, radius_of(model, bodies, b));
   if (ka.kernel == Kernel::field)
     return touch_field(field_of(model, bodies, a), field_of(model, bodies, b), &gap);
   return touch_rods(rod_of(model, bodies, a), rod_of(model, bodies, b), record, gap);

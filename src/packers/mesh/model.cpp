@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include "math/error.hpp"
 #include "packers/expect.hpp"
@@ -43,6 +45,7 @@ std::vector<Kind> make_kinds(const Scene& scene) {
     kind.bounding_radius = shape.bounding_radius;
     kind.thickness = shape.smallest_thickness;
     kind.radius = 0.5 * shape.equivalent_diameter();
+    std::tie(kind.smallest, kind.largest) = scales_of(scene, static_cast<std::uint32_t>(kinds.size()));
     kinds.push_back(kind);
   }
   // kinds of different kernels only meet through the general one
@@ -64,7 +67,8 @@ double find_stiffness(const Scene& scene, const ContactLaw& law, const std::vect
   double stiffness = 0;
   for (const Kind& kind : kinds) {
     const double overlap = law.allowed_overlap * kind.thickness;
-    stiffness = std::max(stiffness, kind.mass * speed * speed / (overlap * overlap));
+    // mass goes like the cube of the scale, the overlap like the scale
+    stiffness = std::max(stiffness, kind.largest * kind.mass * speed * speed / (overlap * overlap));
   }
   return stiffness;
 }
@@ -76,8 +80,8 @@ LawNumbers find_law(const Scene& scene, const ContactLaw& law, const std::vector
 
 /// Contact time of the stiffest contact: two of the lightest pellets, or one on the wall, face to face.
 double shortest_contact(const Model& model) {
-  double mass = model.kinds.front().mass;
-  for (const Kind& kind : model.kinds) mass = std::min(mass, kind.mass);
+  double mass = std::numeric_limits<double>::infinity();
+  for (const Kind& kind : model.kinds) mass = std::min(mass, kind.mass * std::pow(kind.smallest, 3));
   const double pellets = std::sqrt(0.5 * mass / model.pellet_law.stiffness);
   const double wall = std::sqrt(mass / model.wall_law.stiffness);
   return kPi * std::min(pellets, wall);
@@ -102,8 +106,8 @@ Model make_model(const Scene& scene) {
   model.kinds = make_kinds(scene);
   model.container = scene.container;
   if (scene.container.kind == ContainerKind::mesh) {
-    double thickness = model.kinds.front().thickness;
-    for (const Kind& kind : model.kinds) thickness = std::min(thickness, kind.thickness);
+    double thickness = std::numeric_limits<double>::infinity();
+    for (const Kind& kind : model.kinds) thickness = std::min(thickness, kind.smallest * kind.thickness);
     model.wall_field = std::make_shared<FieldWall>(make_field_wall(scene.container, thickness));
   }
   model.gravity = scene.gravity;
@@ -111,11 +115,11 @@ Model make_model(const Scene& scene) {
   model.pellet_law = find_law(scene, scene.pellet_contact, model.kinds);
   model.wall_law = find_law(scene, scene.wall_contact, model.kinds);
   model.stepping = scene.stepping;
-  model.size = model.kinds.front().shape->equivalent_diameter();
+  model.size = std::numeric_limits<double>::infinity();
   double largest = 0;
   for (const Kind& kind : model.kinds) {
-    model.size = std::min(model.size, kind.shape->equivalent_diameter());
-    largest = std::max(largest, kind.bounding_radius);
+    model.size = std::min(model.size, kind.smallest * kind.shape->equivalent_diameter());
+    largest = std::max(largest, kind.largest * kind.bounding_radius);
   }
   const double contact = shortest_contact(model);
   model.step = scene.stepping.step > 0 ? scene.stepping.step : contact / scene.stepping.steps_per_contact;

@@ -18,7 +18,7 @@ namespace packbed::mesh {
 
 enum class Kernel : std::uint8_t { sphere, cylinder, field };
 
-/// A pellet kind with its numbers found.
+/// A pellet kind with its numbers found, at scale 1.
 struct Kind {
   ShapePtr shape;
   Kernel kernel = Kernel::cylinder;
@@ -26,6 +26,7 @@ struct Kind {
   Vec3 inertia = Vec3::Zero();                // principal moments [kg m2]
   double bounding_radius = 0, thickness = 0;  // [m]
   double radius = 0;                          // of the sphere of equal volume [m]
+  double smallest = 1, largest = 1;           // scale of its pellets
   std::shared_ptr<const FieldBody> field;     // made only for Kernel::field
 };
 

@@ -17,8 +17,9 @@ constexpr double kSurfaceSpeed = 0.2;
 void enter(const Model& model, State& state, const Pellet& pellet) {
   const Kind& kind = model.kinds[pellet.shape];
   Bodies& b = state.bodies;
-  add_body(b, {pellet.shape, kind.mass, kind.inertia, kind.bounding_radius, pellet.pose, pellet.velocity,
-               pellet.spin, pellet.fixed, model.may_fly && !pellet.fixed});
+  const double s = pellet.scale, cube = s * s * s;
+  add_body(b, {pellet.shape, cube * kind.mass, cube * s * s * kind.inertia, s * kind.bounding_radius,
+               pellet.pose, pellet.velocity, pellet.spin, pellet.fixed, model.may_fly && !pellet.fixed, s});
   const std::size_t i = b.size() - 1;
   state.flight_from.push_back(state.time);
   state.flight_end.push_back(state.time);
@@ -31,7 +32,7 @@ void enter(const Model& model, State& state, const Pellet& pellet) {
   if (b.motion[i] == Motion::airborne) begin_flight(model, state, i);
   if (!pellet.fixed)
     state.ledger.input +=
-        kinetic_translation(b, i) + kinetic_rotation(b, i) - kind.mass * model.gravity.dot(b.position[i]);
+        kinetic_translation(b, i) + kinetic_rotation(b, i) - b.mass[i] * model.gravity.dot(b.position[i]);
 }
 
 bool still(Motion m) {

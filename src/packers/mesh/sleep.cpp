@@ -23,7 +23,7 @@ constexpr double kWatchContacts = 60;
 constexpr double kLostSupport = 0.3;
 
 double size_of(const Model& model, const Bodies& b, std::size_t i) {
-  return 2.0 * std::cbrt(0.75 / kPi * model.kinds[b.kind[i]].shape->volume);
+  return b.scale[i] * model.kinds[b.kind[i]].shape->equivalent_diameter();
 }
 
 void begin_watch(State& state, std::size_t i) {
@@ -125,7 +125,9 @@ void wake_all(State& state) {
 void sleep(const Model& model, State& state) {
   if (!model.stepping.sleep || state.last_watch) return;
   Bodies& b = state.bodies;
-  const double contact_time = kPi * std::sqrt(0.5 * model.kinds.front().mass / model.pellet_law.stiffness);
+  const double contact_time =
+      kPi * std::sqrt(0.5 * model.kinds.front().mass * std::pow(model.kinds.front().smallest, 3) /
+                      model.pellet_law.stiffness);
   const auto watch = std::max<std::int64_t>(1, std::llround(kWatchContacts * contact_time / model.step));
   const bool watch_ends = state.steps % watch == 0;
   if (state.pairs.shore_stale) state.pairs.shore = find_shore(state);

@@ -23,6 +23,14 @@ void step(const Model& model, State& state, Feeder& feeder, PhaseTimes& times) {
   rest(model, state, feeder), done(kRest);
 }
 
+void begin(const Model& model, State& state, Feeder& feeder) {
+  feed(model, state, feeder);
+  find_pairs(model, state);
+  touch(model, state);
+  for (const std::uint32_t i : state.awake) gather(state, i, state.bodies.force[i], state.bodies.torque[i]);
+  for (const PairRecord& r : state.pairs.record) state.ledger.input += r.elastic;
+}
+
 void kick_drift(const Model& model, State& state) {
   Bodies& bodies = state.bodies;
   std::atomic<bool> left_margin{false};

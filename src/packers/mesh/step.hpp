@@ -13,6 +13,9 @@ inline constexpr std::array<std::string_view, kPhases> kPhaseName = {
     "feed", "find_pairs", "kick_drift", "touch", "gather_kick", "sleep", "rest"};
 using PhaseTimes = std::array<double, kPhases>;  // wall-clock [s]
 
+/// Before the first step: pellets that were placed may overlap already. Their forces count in the first half
+/// step, and what their contacts hold is energy put in.
+void begin(const Model& model, State& state, Feeder& feeder);
 /// Velocity Verlet with contacts; everything else only when it is due.
 void step(const Model& model, State& state, Feeder& feeder, PhaseTimes& times);
 

@@ -39,15 +39,13 @@ void part(Load& load, PairRecord& r) {
 
 /// R* of rolling friction.
 double reduced_radius(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t b) {
-  const double of_a = model.kinds[bodies.kind[a]].radius;
-  if (is_container(b)) return of_a;
-  const double of_b = model.kinds[bodies.kind[b]].radius;
-  return of_a * of_b / (of_a + of_b);
+  const auto of = [&](std::uint32_t i) { return bodies.scale[i] * model.kinds[bodies.kind[i]].radius; };
+  return is_container(b) ? of(a) : of(a) * of(b) / (of(a) + of(b));
 }
 
 double thickness_of(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t b) {
-  const double of_a = model.kinds[bodies.kind[a]].thickness;
-  return is_container(b) ? of_a : std::min(of_a, model.kinds[bodies.kind[b]].thickness);
+  const auto of = [&](std::uint32_t i) { return bodies.scale[i] * model.kinds[bodies.kind[i]].thickness; };
+  return is_container(b) ? of(a) : std::min(of(a), of(b));
 }
 
 void push(const Model& model, const Bodies& bodies, const BodyPair& pair, const Touch& t, Load& load,

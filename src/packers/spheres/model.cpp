@@ -23,7 +23,8 @@ std::vector<Kind> make_kinds(const Scene& scene) {
       throw InputError(scene.case_file + ": method",
                        "\"spheres\" with a pellet that is a " + std::string(to_string(pellet.shape->kind)),
                        "spheres only", "method = \"mesh\" packs any shape");
-    kinds.push_back({pellet.shape->radius, pellet.density});
+    const auto [smallest, largest] = scales_of(scene, static_cast<std::uint32_t>(kinds.size()));
+    kinds.push_back({pellet.shape->radius, pellet.density, smallest, largest});
   }
   return kinds;
 }
@@ -50,10 +51,10 @@ struct Extremes {
   double density = 0;                // of the lightest kind [kg/m3]
 };
 Extremes extremes_of(const std::vector<Kind>& kinds) {
-  Extremes e{kinds.front().radius, kinds.front().radius, kinds.front().density};
+  Extremes e{kinds.front().smallest * kinds.front().radius, 0, kinds.front().density};
   for (const Kind& k : kinds) {
-    e.smallest = std::min(e.smallest, k.radius);
-    e.largest = std::max(e.largest, k.radius);
+    e.smallest = std::min(e.smallest, k.smallest * k.radius);
+    e.largest = std::max(e.largest, k.largest * k.radius);
     e.density = std::min(e.density, k.density);
   }
   return e;

@@ -15,8 +15,9 @@
 namespace packbed::spheres {
 
 struct Kind {
-  double radius = 0;   // of scale 1 [m]
-  double density = 0;  // [kg/m3]
+  double radius = 0;                 // of scale 1 [m]
+  double density = 0;                // [kg/m3]
+  double smallest = 1, largest = 1;  // scale of its pellets
 };
 
 struct Model {

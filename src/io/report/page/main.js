@@ -8,6 +8,7 @@ import { header } from './header.js';
 import { bedView } from './bed_view.js';
 import { profiles } from './profiles.js';
 import { structure } from './structure.js';
+import { mixture } from './mixture.js';
 import { audit, energy, timing, walls } from './run.js';
 import { provenance } from './provenance.js';
 import { onThemeChange } from './theme.js';
@@ -42,6 +43,7 @@ function build() {
   place(main, 'profiles', profiles, data);
   place(main, 'structure', structure, data);
   const pair = main.appendChild(element('div', { class: 'columns two' }));
+  place(pair, 'mixture', mixture, data);
   place(pair, 'audit', audit, data);
   place(pair, 'energy', energy, data);
   place(pair, 'walls', walls, data);
