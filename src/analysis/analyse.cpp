@@ -71,6 +71,8 @@ double inside_area(const Container& container, const GridFrame& frame) {
   switch (container.kind) {
     case ContainerKind::tube:
       return kPi * container.radius * container.radius;
+    case ContainerKind::box:
+      return container.width * container.depth;
     case ContainerKind::mesh:
       return 0;
     default:

@@ -15,6 +15,8 @@ std::string inside_of(const Container& container, double radius) {
   switch (container.kind) {
     case ContainerKind::tube:
       return fmt::format("the inside of the tube of {} diameter", mm(2 * container.radius));
+    case ContainerKind::box:
+      return fmt::format("the inside of the box of {} x {}", mm(container.width), mm(container.depth));
     case ContainerKind::mesh:
       return "the inside of the container mesh, measured in voxels";
     default:

@@ -85,6 +85,18 @@ void add_tube_wall(const PackedBed& bed, const std::vector<Body>& bodies, std::v
   }
 }
 
+void add_box_sides(const PackedBed& bed, const std::vector<Body>& bodies, std::vector<Overlap>& overlaps) {
+  const Container& box = bed.container;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (const Vec3& along : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY())})
+      for (const Vec3& out : {along, Vec3(-along)}) {
+        const double half = 0.5 * (along.x() > 0 ? box.width : box.depth);
+        const Pellet& p = bed.pellets[i];
+        const double depth = reach(*bed.shapes[p.shape], p, out) - half;
+        if (depth > 0) overlaps.push_back(with_container(i, depth, bodies[i], bodies[i].furthest(out)));
+      }
+}
+
 /// The deepest point of the pellet in the wall, or of the wall in the pellet.
 void add_wall_mesh(const Container& container, const std::vector<Body>& bodies,
                    std::vector<Overlap>& overlaps) {
@@ -124,6 +136,10 @@ std::vector<Overlap> container_overlaps(const PackedBed& bed, const std::vector<
     case ContainerKind::tube:
       add_floor(bed, bodies, overlaps);
       add_tube_wall(bed, bodies, overlaps);
+      break;
+    case ContainerKind::box:
+      add_floor(bed, bodies, overlaps);
+      add_box_sides(bed, bodies, overlaps);
       break;
     case ContainerKind::mesh:
       add_wall_mesh(bed.container, bodies, overlaps);

@@ -93,10 +93,16 @@ VoxelGrid container_space(const Container& container, const GridFrame& frame) {
   GridFrame slice = frame;
   slice.size[2] = 1;
   VoxelGrid space(slice);
-  const double r2 = container.radius * container.radius;
+  const auto within = [&](const Vec3& x) {
+    if (container.kind == ContainerKind::tube)
+      return x.head<2>().squaredNorm() <= container.radius * container.radius;
+    if (container.kind == ContainerKind::box)
+      return std::abs(x.x()) <= 0.5 * container.width && std::abs(x.y()) <= 0.5 * container.depth;
+    return true;
+  };
   for (int y = 0; y < slice.size[1]; ++y)
     for (int x = 0; x < slice.size[0]; ++x)
-      if (container.kind != ContainerKind::tube || slice.centre(x, y, 0).head<2>().squaredNorm() <= r2)
+      if (within(slice.centre(x, y, 0)))
         space.words[space.row(y, 0) + static_cast<std::size_t>(x) / 64] |= std::uint64_t{1} << (x % 64);
   return space;
 }

@@ -32,6 +32,13 @@ struct ContactLaw {
   double friction = 0;          // Coulomb coefficient [-]
   bool torsion = true;          // a spring against spinning on a flat touch
   double rolling_friction = 0;  // moment against rolling over R* times the normal force [-]
+  // spheres only (contact/sphere_law.hpp)
+  bool hertz = false;
+  double youngs_modulus = 0,
+         poisson_ratio = 0;  // of both bodies [Pa]; 0: stiffness or allowed_overlap instead
+  double shear_modulus = 0;  // [Pa]; 0: of an isotropic body
+  double dissipation = 0, tangential_dissipation = 0;  // dashpots over the effective mass [1/s]
+  double tangential_stiffness = 0;  // over the normal one; 0: Mindlin's with youngs_modulus, else 2/7
 };
 
 enum class FeedKind { layers, pour, placed, lattice };
@@ -68,6 +75,7 @@ struct Stepping {
   double step = 0;  // [s]; 0: contact time of the stiffest contact / steps_per_contact
   double steps_per_contact = 16;
   double skin = 0;    // of the neighbour list [m]; 0: found from the pellet size
+  bool gear = false;  // spheres: Gear's predictor-corrector of sixth order instead of velocity Verlet
   bool sleep = true;  // let settled pellets stand still until something moves them
   double sleep_displacement =
       1e-3;                  // drift over the watch time below which a pellet may sleep, fraction of its size

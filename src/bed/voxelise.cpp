@@ -65,6 +65,9 @@ GridFrame frame_for(const Container& container, double pitch, double top) {
   double margin = 0;
   if (container.kind == ContainerKind::tube) {
     size.x() = size.y() = 2 * container.radius;
+  } else if (container.kind == ContainerKind::box) {
+    size.x() = container.width;
+    size.y() = container.depth;
   } else if (container.kind == ContainerKind::mesh) {
     for (const Vec3& v : container.surface.vertices) {
       size.x() = std::max(size.x(), 2 * std::abs(v.x()));
@@ -73,7 +76,7 @@ GridFrame frame_for(const Container& container, double pitch, double top) {
     margin = 2;
   } else {
     throw InputError("container", std::string(to_string(container.kind)),
-                     "a container with sides (tube or mesh)", "take the frame from the bed");
+                     "a container with sides (tube, box or mesh)", "take the frame from the bed");
   }
   const Vec3 count(voxels_over(size.x(), pitch) + margin, voxels_over(size.y(), pitch) + margin,
                    std::max(1.0, voxels_over(top, pitch)));
@@ -82,8 +85,7 @@ GridFrame frame_for(const Container& container, double pitch, double top) {
 
 GridFrame frame_for(const PackedBed& bed, double pitch) {
   check_pitch(pitch);
-  if (bed.container.kind == ContainerKind::tube || bed.container.kind == ContainerKind::mesh)
-    return frame_for(bed.container, pitch, bed_top(bed));
+  if (has_sides(bed.container.kind)) return frame_for(bed.container, pitch, bed_top(bed));
   Box3 box = bounding_box(bed);
   if (box.isEmpty()) box = Box3(Vec3::Zero(), Vec3::Constant(pitch));
   if (bed.container.kind == ContainerKind::plane) box.min().z() = std::min(0.0, box.max().z());

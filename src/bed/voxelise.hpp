@@ -7,10 +7,10 @@
 namespace packbed {
 
 /// Grid round the inside of a container from the floor (z = 0) up to `top` [m], symmetric about the axis.
-/// Tube: its inner diameter (LC, 44.5 mm, at 0.1 mm and 120 mm: 445 x 445 x 1200). Mesh: its whole wall and
-/// one voxel more all round, so that the outside can be told from the inside. Throws InputError for a pitch
-/// that is not positive, that is coarser than the container or that needs more than 2^37 voxels, and for a
-/// container without sides (plane, none).
+/// Box: its inner sides. Tube: its inner diameter (LC, 44.5 mm, at 0.1 mm and 120 mm: 445 x 445 x 1200).
+/// Mesh: its whole wall and one voxel more all round, so that the outside can be told from the inside. Throws
+/// InputError for a pitch that is not positive, that is coarser than the container or that needs more than
+/// 2^37 voxels, and for a container without sides (plane, none).
 GridFrame frame_for(const Container& container, double pitch, double top);
 /// The same for a bed up to its highest pellet; without sides: the box of its pellets (plane: down to the
 /// floor).
@@ -27,8 +27,9 @@ inline constexpr int kMostPoints = 32;
 std::vector<float> partial_volume(const PackedBed& bed, const GridFrame& frame, int k);
 
 /// Voxels that belong to the inside of the container. One slice that stands for all where they are alike
-/// (frame.size[2] == 1): tube (centre within the radius), plane and none (all). Mesh: neither wall nor
-/// reached from the edge of the slice by steps along x and y; a slice whose wall has a gap has no inside.
+/// (frame.size[2] == 1): tube (centre within the radius), box (within the sides), plane and none (all). Mesh:
+/// neither wall nor reached from the edge of the slice by steps along x and y; a slice whose wall has a gap
+/// has no inside.
 VoxelGrid container_space(const Container& container, const GridFrame& frame);
 
 }  // namespace packbed

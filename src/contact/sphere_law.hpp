@@ -165,11 +165,10 @@ PACKBED_INLINE SphereForce resolve(const SphereLaw& law, const SphereTouch& t, d
                                law.rolling_friction * t.radius * push, roll, tally);
     }
   }
-  const Four depth = delta / t.thickness;
-  tally.deepest = larger(tally.deepest, depth);
+  if (any(delta > tally.deepest * t.thickness)) tally.deepest = larger(tally.deepest, delta / t.thickness);
   tally.touches += t.touches ? four(1.0) : none;
-  tally.deep += depth > 0.05 ? four(1.0) : none;
-  tally.very_deep += depth > 0.1 ? four(1.0) : none;
+  tally.deep += delta > 0.05 * t.thickness ? four(1.0) : none;
+  tally.very_deep += delta > 0.1 * t.thickness ? four(1.0) : none;
   return out;
 }
 

@@ -12,6 +12,7 @@ namespace packbed {
 namespace {
 
 using Lane = std::array<std::uint32_t, 4>;
+#define PACKBED_INLINE_LAMBDA __attribute__((always_inline))
 
 PACKBED_INLINE FourQuads gather(const Quad* from, const Lane& at) {
   return turned(four(from[at[0]]), four(from[at[1]]), four(from[at[2]]), four(from[at[3]]));
@@ -103,6 +104,52 @@ PACKBED_INLINE WallSide side_of(const FourQuads& wall, const FourVec& x) {
   return {choose(round, inwards, flat), round ? wall.w - across : dot(flat, x) - wall.w};
 }
 
+/// side_at(block, x): the wall beside each of four spheres if they stood at x.
+template <class SideAt>
+PACKBED_INLINE void touch_sides(const SphereLaw& law, const SphereView& view, double step,
+                                std::span<const SphereWallPair> pairs, const SphereMemory& memory,
+                                SphereTally& tally, SphereContact* contacts, const SideAt& side_at) {
+  SphereTally sums = tally;
+  for (std::size_t first = 0; first < pairs.size(); first += 4) {
+    const Block block = block_at(first, pairs.size());
+    Lane a;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const SphereWallPair& p = pairs[first + (k < block.count ? k : 0)];
+      a[k] = p.a;
+    }
+    const FourQuads place = gather(view.place, a);
+    const WallSide side = side_at(block, vec(place));
+    SphereTouch t;
+    t.touches = block.used & (side.distance < place.w);
+    Remembered had = recall(memory, block);
+    if (!any(t.touches) && empty(had) && !contacts) continue;
+    t.normal = side.normal;
+    t.delta = place.w - side.distance;
+    t.radius = place.w;
+    t.thickness = 2.0 * place.w;
+    const FourQuads velocity = gather(view.velocity, a);
+    t.mass = 1.0 / velocity.w;
+    t.ahead = vec(gather(view.ahead, a));
+    t.mid = vec(velocity);
+    const Four arm = place.w - 0.5 * t.delta;
+    if (law.friction > 0) {
+      t.normal_mid = side_at(block, vec(place) - (0.5 * step) * t.mid).normal;
+      t.rolling = vec(gather(view.spin, a));
+      t.turning = arm * t.rolling;
+    }
+    const SphereForce f = resolve(law, t, step, had.slip, had.roll, had.drag, sums);
+    if (contacts) {
+      describe(law, t, f, had, block, contacts);
+      continue;
+    }
+    add(rows(f.force, Four{}), a, block.count, view.force);
+    keep(had, block, memory);
+    if (!(law.friction > 0)) continue;
+    add(rows(f.rolling - arm * f.moment, Four{}), a, block.count, view.torque);
+  }
+  if (!contacts) tally = sums;
+}
+
 }  // namespace
 
 PACKBED_WIDE void touch_spheres(const SphereLaw& law, const SphereView& view, double step,
@@ -123,13 +170,17 @@ PACKBED_WIDE void touch_spheres(const SphereLaw& law, const SphereView& view, do
     t.touches = block.used & (distance2 < reach * reach) & (distance2 > 0.0);
     Remembered had = recall(memory, block);
     if (!any(t.touches) && empty(had) && !contacts) continue;
-    const Four distance = root(distance2), inverse = 1.0 / (distance > 0.0 ? distance : four(1.0));
+    const FourQuads velocity_a = gather(view.velocity, a), velocity_b = gather(view.velocity, b);
+    const Four distance = root(distance2 > 0.0 ? distance2 : four(1.0)),
+               lightness = velocity_a.w + velocity_b.w;
+    // 1 / distance, R* and m* by one division
+    const Four scale = reach * lightness, shared = 1.0 / (distance * scale), inverse = scale * shared;
+    const Four share = distance * shared;
     t.normal = inverse * apart;
     t.delta = reach - distance;
-    t.radius = place_a.w * place_b.w / reach;
+    t.radius = place_a.w * place_b.w * lightness * share;
+    t.mass = reach * share;
     t.thickness = 2.0 * smaller(place_a.w, place_b.w);
-    const FourQuads velocity_a = gather(view.velocity, a), velocity_b = gather(view.velocity, b);
-    t.mass = 1.0 / (velocity_a.w + velocity_b.w);
     t.ahead = vec(gather(view.ahead, a)) - vec(gather(view.ahead, b));
     t.mid = vec(velocity_a) - vec(velocity_b);
     const Four arm_a = place_a.w - 0.5 * t.delta, arm_b = place_b.w - 0.5 * t.delta;
@@ -159,45 +210,26 @@ PACKBED_WIDE void touch_spheres(const SphereLaw& law, const SphereView& view, do
 PACKBED_WIDE void touch_walls(const SphereLaw& law, const SphereView& view, double step,
                               std::span<const SphereWall> walls, std::span<const SphereWallPair> pairs,
                               const SphereMemory& memory, SphereTally& tally, SphereContact* contacts) {
-  SphereTally sums = tally;
-  for (std::size_t first = 0; first < pairs.size(); first += 4) {
-    const Block block = block_at(first, pairs.size());
-    Lane a, w;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const SphereWallPair& p = pairs[first + (k < block.count ? k : 0)];
-      a[k] = p.a, w[k] = p.wall;
-    }
-    const FourQuads place = gather(view.place, a), wall = gather(walls.data(), w);
-    const WallSide side = side_of(wall, vec(place));
-    SphereTouch t;
-    t.touches = block.used & (side.distance < place.w);
-    Remembered had = recall(memory, block);
-    if (!any(t.touches) && empty(had) && !contacts) continue;
-    t.normal = side.normal;
-    t.delta = place.w - side.distance;
-    t.radius = place.w;
-    t.thickness = 2.0 * place.w;
-    const FourQuads velocity = gather(view.velocity, a);
-    t.mass = 1.0 / velocity.w;
-    t.ahead = vec(gather(view.ahead, a));
-    t.mid = vec(velocity);
-    const Four arm = place.w - 0.5 * t.delta;
-    if (law.friction > 0) {
-      t.normal_mid = side_of(wall, vec(place) - (0.5 * step) * t.mid).normal;
-      t.rolling = vec(gather(view.spin, a));
-      t.turning = arm * t.rolling;
-    }
-    const SphereForce f = resolve(law, t, step, had.slip, had.roll, had.drag, sums);
-    if (contacts) {
-      describe(law, t, f, had, block, contacts);
-      continue;
-    }
-    add(rows(f.force, Four{}), a, block.count, view.force);
-    keep(had, block, memory);
-    if (!(law.friction > 0)) continue;
-    add(rows(f.rolling - arm * f.moment, Four{}), a, block.count, view.torque);
-  }
-  if (!contacts) tally = sums;
+  touch_sides(law, view, step, pairs, memory, tally, contacts,
+              [&](const Block& block, const FourVec& x) PACKBED_INLINE_LAMBDA {
+                Lane w;
+                for (std::size_t k = 0; k < 4; ++k)
+                  w[k] = pairs[block.first + (k < block.count ? k : 0)].wall;
+                return side_of(gather(walls.data(), w), x);
+              });
+}
+
+PACKBED_WIDE void touch_given_walls(const SphereLaw& law, const SphereView& view, double step,
+                                    std::span<const Quad> sides, std::span<const SphereWallPair> pairs,
+                                    const SphereMemory& memory, SphereTally& tally, SphereContact* contacts) {
+  touch_sides(law, view, step, pairs, memory, tally, contacts,
+              [&](const Block& block, const FourVec&) PACKBED_INLINE_LAMBDA {
+                Lane at;
+                for (std::size_t k = 0; k < 4; ++k)
+                  at[k] = static_cast<std::uint32_t>(k < block.count ? k : 0);
+                const FourQuads q = gather(sides.data() + block.first, at);
+                return WallSide{vec(q), q.w};
+              });
 }
 
 }  // namespace packbed

@@ -51,4 +51,10 @@ void touch_walls(const SphereLaw& law, const SphereView& view, double step, std:
                  std::span<const SphereWallPair> pairs, const SphereMemory& memory, SphereTally& tally,
                  SphereContact* contacts = nullptr);
 
+/// Walls of any form: `sides` has the unit normal and the distance [m] of the wall beside the sphere of each
+/// pair.
+void touch_given_walls(const SphereLaw& law, const SphereView& view, double step, std::span<const Quad> sides,
+                       std::span<const SphereWallPair> pairs, const SphereMemory& memory, SphereTally& tally,
+                       SphereContact* contacts = nullptr);
+
 }  // namespace packbed

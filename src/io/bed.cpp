@@ -99,6 +99,8 @@ std::vector<std::pair<const char*, double Shape::*>> shape_numbers() {
 std::vector<std::pair<const char*, double Container::*>> container_numbers() {
   return {{"radius_m", &Container::radius},
           {"height_m", &Container::height},
+          {"width_m", &Container::width},
+          {"depth_m", &Container::depth},
           {"mesh_volume_m3", &Container::mesh_volume}};
 }
 
@@ -164,9 +166,9 @@ void put_container(Hdf5Writer& file, const Container& container) {
 
 Container get_container(const Hdf5Reader& file) {
   Container container;
-  container.kind = kind_from(
-      file.text_attribute("/container", "kind"),
-      std::array{ContainerKind::none, ContainerKind::plane, ContainerKind::tube, ContainerKind::mesh});
+  container.kind = kind_from(file.text_attribute("/container", "kind"),
+                             std::array{ContainerKind::none, ContainerKind::plane, ContainerKind::tube,
+                                        ContainerKind::box, ContainerKind::mesh});
   container.name = file.text_attribute("/container", "name");
   container.source = file.text_attribute("/container", "source");
   for (const auto& [name, member] : container_numbers())

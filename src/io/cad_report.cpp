@@ -137,8 +137,12 @@ void say_container(Page& page, const CadModel& model, const MeshReport& report, 
     page.line("shape", fmt::format("tube of inner diameter {} and inner height {} on a flat floor",
                                    length(2 * c.radius), length(c.height)));
     page.line("kernel", "tube: exact, needs neither field nor triangles in the run");
+  } else if (c.kind == ContainerKind::box) {
+    page.line("shape", fmt::format("box of {} x {} and inner height {} on a flat floor", length(c.width),
+                                   length(c.depth), length(c.height)));
+    page.line("kernel", "box: exact, needs neither field nor triangles in the run");
   } else {
-    page.line("shape", "mesh: no upright round tube on a flat floor");
+    page.line("shape", "mesh: no upright round tube or box on a flat floor");
     page.line("kernel", "field: a distance field of the wall, made once");
     if (c.height > 0) page.line("inner height", fmt::format("{}, floor to rim", length(c.height)));
     if (c.radius > 0)

@@ -1,5 +1,7 @@
 #include "io/case_keys.hpp"
 
+#include <array>
+
 #include "io/case_feed_keys.hpp"
 #include "io/case_ranges.hpp"
 #include "io/case_shape_keys.hpp"
@@ -73,18 +75,19 @@ void container_keys(Fields& f, ContainerRecord& r) {
   f.when(!r.file.empty(), "file = ...", [&] {
     f.choice({.name = "unit", .meaning = "of the lengths in an STL, OBJ, PLY or MSH file (STEP has its own)"},
              r.unit, {"m", "cm", "mm", "um", "in"});
-    f.flag({.name = "recognise",
-            .meaning = "take a mesh that is a round tube on a flat floor for the exact tube"},
-           r.recognise);
+    f.flag(
+        {.name = "recognise",
+         .meaning = "take a mesh that is a round tube or an upright box on a flat floor for the exact one"},
+        r.recognise);
   });
   f.when(r.file.empty(), "no file", [&] {
-    f.choice(
-        {.name = "shape",
-         .meaning =
-             "instead of a file: tube = round, upright, on a flat floor, open above; plane = a floor without "
-             "end; none = free space",
-         .required = true},
-        r.shape, {"tube", "plane", "none"});
+    f.choice({.name = "shape",
+              .meaning = "instead of a file: tube = round, upright, on a flat floor, open above; box = the "
+                         "same with four "
+                         "flat sides; plane = a floor without "
+                         "end; none = free space",
+              .required = true},
+             r.shape, {"tube", "box", "plane", "none"});
     f.when(r.shape == "tube", "shape = \"tube\"", [&] {
       f.real({.name = "inner_diameter",
               .meaning = "of the tube",
@@ -92,8 +95,24 @@ void container_keys(Fields& f, ContainerRecord& r) {
               .range = kSize,
               .required = true},
              r.inner_diameter);
+    });
+    f.when(r.shape == "box", "shape = \"box\"", [&] {
+      f.real({.name = "width",
+              .meaning = "of the box inside, along x",
+              .dimension = D::length,
+              .range = kSize,
+              .required = true},
+             r.width);
+      f.real({.name = "depth",
+              .meaning = "of the box inside, along y",
+              .dimension = D::length,
+              .range = kSize,
+              .required = true},
+             r.depth);
+    });
+    f.when(r.shape == "tube" || r.shape == "box", "shape = \"tube\" or \"box\"", [&] {
       f.real({.name = "height",
-              .meaning = "of the tube, floor to rim",
+              .meaning = "of the tube or box, floor to rim",
               .dimension = D::length,
               .range = kSize,
               .required = true},
@@ -102,13 +121,52 @@ void container_keys(Fields& f, ContainerRecord& r) {
   });
 }
 
-void contact_keys(Fields& f, ContactRecord& r) {
+void sphere_contact_keys(Fields& f, ContactRecord& r) {
+  f.choice(
+      {.name = "law",
+       .meaning = "normal force between spheres: hooke = k delta; hertz = (4/3) E* sqrt(R* delta) delta"},
+      r.law, {"hooke", "hertz"});
+  f.real({.name = "youngs_modulus",
+          .meaning = "of both bodies; instead of stiffness and allowed_overlap. hooke: k = (4/3) E* R*",
+          .dimension = D::pressure,
+          .range = above_zero_to(1e13)},
+         r.youngs_modulus);
+  f.when(r.youngs_modulus.has_value(), "youngs_modulus = ...", [&] {
+    f.real({.name = "poisson_ratio", .meaning = "of both bodies", .range = between(0, 0.5)}, r.poisson_ratio);
+    f.real({.name = "shear_modulus",
+            .meaning = "of both bodies; default: E / 2(1 + nu)",
+            .dimension = D::pressure,
+            .range = above_zero_to(1e13)},
+           r.shear_modulus);
+  });
+  f.real({.name = "dissipation",
+          .meaning = "coefficient of the normal dashpot over the effective mass; instead of damping",
+          .dimension = D::rate,
+          .range = between(0, 1e9)},
+         r.dissipation);
+  f.when(r.dissipation.has_value(), "dissipation = ...", [&] {
+    f.real({.name = "tangential_dissipation",
+            .meaning = "of the tangential dashpot; default: as dissipation",
+            .dimension = D::rate,
+            .range = between(0, 1e9)},
+           r.tangential_dissipation);
+  });
+  f.real({.name = "tangential_stiffness",
+          .meaning = "over the normal one; default: Mindlin's with youngs_modulus, else 2/7",
+          .range = above_zero_to(10)},
+         r.tangential_stiffness);
+}
+
+void contact_keys(Fields& f, ContactRecord& r, bool spheres) {
   f.real({.name = "friction",
           .meaning = "Coulomb coefficient",
           .range = between(0, 10, "friction never pulls; 0 is frictionless")},
          r.friction);
-  if (const auto given = f.one_of({"damping", "restitution"}))
-    (*given == 0 ? r.restitution : r.damping).reset();
+  if (const auto given = f.one_of({"damping", "restitution", "dissipation"})) {
+    const std::array<std::optional<double>*, 3> ways{&r.damping, &r.restitution, &r.dissipation};
+    for (std::size_t k = 0; k < ways.size(); ++k)
+      if (k != *given) ways[k]->reset();
+  }
   f.real({.name = "damping",
           .meaning = "fraction of critical damping of an impact; instead of restitution",
           .range = between(0, 1, "more than critical damping makes an impact a creep")},
@@ -118,8 +176,11 @@ void contact_keys(Fields& f, ContactRecord& r) {
           .range =
               between(kRestitutionAtCritical, 1, "exp(-2) = 0.1353 is the restitution of critical damping")},
          r.restitution);
-  if (const auto given = f.one_of({"stiffness", "allowed_overlap"}))
-    (*given == 0 ? r.allowed_overlap : r.stiffness).reset();
+  if (const auto given = f.one_of({"stiffness", "allowed_overlap", "youngs_modulus"})) {
+    const std::array<std::optional<double>*, 3> ways{&r.stiffness, &r.allowed_overlap, &r.youngs_modulus};
+    for (std::size_t k = 0; k < ways.size(); ++k)
+      if (k != *given) ways[k]->reset();
+  }
   f.real({.name = "stiffness",
           .meaning = "k of the contact energy k delta^2 / 2; instead of allowed_overlap",
           .dimension = D::stiffness,
@@ -135,9 +196,16 @@ void contact_keys(Fields& f, ContactRecord& r) {
           .meaning = "moment against rolling, over the normal force times the reduced radius",
           .range = between(0, 1)},
          r.rolling_friction);
+  f.when(spheres, "method = \"spheres\"", [&] { sphere_contact_keys(f, r); });
 }
 
-void stepping_keys(Fields& f, Stepping& r) {
+void stepping_keys(Fields& f, CaseRecord& record) {
+  Stepping& r = record.stepping;
+  f.when(record.method == "spheres", "method = \"spheres\"", [&] {
+    f.choice({.name = "integrator",
+              .meaning = "verlet = velocity Verlet; gear = Gear's predictor-corrector of sixth order"},
+             record.integrator, {"verlet", "gear"});
+  });
   f.real({.name = "step",
           .meaning = "of time",
           .dimension = D::time,
@@ -292,10 +360,11 @@ void output_keys(Fields& f, OutputWish& r) {
 void both_contacts(Fields& f, CaseRecord& r) {
   f.section("contact", "Between two pellets, and with the container unless [contact.wall] says otherwise.",
             [&] {
-              contact_keys(f, r.pellet_contact);
+              const bool spheres = r.method == "spheres";
+              contact_keys(f, r.pellet_contact, spheres);
               if (f.reading()) r.wall_contact = r.pellet_contact;
               f.section("wall", "Between a pellet and the container. Default: as [contact].",
-                        [&] { contact_keys(f, r.wall_contact); });
+                        [&] { contact_keys(f, r.wall_contact, spheres); });
             });
 }
 
@@ -312,7 +381,7 @@ void visit_case(Fields& f, CaseRecord& r) {
   both_contacts(f, r);
   f.section("feed", "How pellets enter.", [&] { feed_keys(f, r); });
   f.section("stepping", "How the packer moves bodies, and when it calls the bed at rest.",
-            [&] { stepping_keys(f, r.stepping); });
+            [&] { stepping_keys(f, r); });
   f.section("lattice", "How the lattice packers move pellets; the mesh packer does without.",
             [&] { lattice_keys(f, r.lattice); });
   f.section("analysis", "What is measured of the bed.", [&] { analysis_keys(f, r.analysis); });

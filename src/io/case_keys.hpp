@@ -31,7 +31,7 @@ struct PelletRecord {
 struct ContainerRecord {
   std::string name, file, unit, shape;
   bool recognise = true;
-  double inner_diameter = 0, height = 0;  // [m]
+  double inner_diameter = 0, width = 0, depth = 0, height = 0;  // [m]
 };
 
 struct ContactRecord {
@@ -40,6 +40,10 @@ struct ContactRecord {
   std::optional<double> stiffness = {}, allowed_overlap = 0.045;  // one of them
   bool torsion = true;
   double rolling_friction = 0.01;
+  std::string law = "hooke";  // this and what follows: of spheres
+  std::optional<double> youngs_modulus = {}, shear_modulus = {}, dissipation = {},
+                        tangential_dissipation = {}, tangential_stiffness = {};
+  double poisson_ratio = 0.3;
 };
 
 struct PlacedRecord {
@@ -61,6 +65,7 @@ struct CaseRecord {
   std::string feed_kind = "layers", feed_csv;
   std::vector<PlacedRecord> placed;
   Stepping stepping;
+  std::string integrator = "verlet";
   LatticeRules lattice;
   AnalysisWish analysis;
   OutputWish output;

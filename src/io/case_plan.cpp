@@ -83,18 +83,18 @@ double mean_mass(const Scene& s) {
     m += k.share * k.density * k.shape->volume * mean_cubed_scale(k.sizes);
   return m;
 }
-double fed_radius(const Scene& s) {
-  return round_container(s) ? s.container.radius : s.feed.radius;
+double fed_area(const Scene& s) {
+  const Container& c = s.container;
+  if (c.kind == ContainerKind::box) return c.width * c.depth;
+  return kPi * std::pow(round_container(s) ? c.radius : s.feed.radius, 2);
 }
-
 /// How many pellets will be there at the end.
 double expected_pellets(const Scene& s) {
   if (s.feed.kind == FeedKind::placed) return static_cast<double>(s.feed.placed.size());
   double n = 1e300;
   if (s.feed.count) n = *s.feed.count;
   if (s.feed.mass) n = std::min(n, std::ceil(*s.feed.mass / mean_mass(s)));
-  if (s.feed.height)
-    n = std::min(n, kPackingDensity * kPi * std::pow(fed_radius(s), 2) * *s.feed.height / mean_volume(s));
+  if (s.feed.height) n = std::min(n, kPackingDensity * fed_area(s) * *s.feed.height / mean_volume(s));
   return std::max(1.0, std::floor(n));
 }
 
@@ -105,7 +105,7 @@ double expected_height(const Scene& s) {
       top = std::max(top, p.pose.position.z() + p.scale * s.pellets[p.kind].shape->bounding_radius);
     return top;
   }
-  return expected_pellets(s) * mean_volume(s) / (kPackingDensity * kPi * std::pow(fed_radius(s), 2));
+  return expected_pellets(s) * mean_volume(s) / (kPackingDensity * fed_area(s));
 }
 
 struct Expected {
@@ -152,7 +152,9 @@ Expected expect(const Scene& s) {
   e.stiffness = stiffness_of(s, s.pellet_contact, std::max(e.speed, 0.1));
   const double wall = stiffness_of(s, s.wall_contact, std::max(e.speed, 0.1));
   const double contact = kPi * std::sqrt(lightest(s) / std::max(2 * e.stiffness, wall));
-  e.step = s.stepping.step > 0 ? s.stepping.step : contact / s.stepping.steps_per_contact;
+  e.step = s.method == "spheres" ? sphere_step(s)
+           : s.stepping.step > 0 ? s.stepping.step
+                                 : contact / s.stepping.steps_per_contact;
   const double n = expected_pellets(s), g = std::max(s.gravity.norm(), 1e-3);
   const bool placed = s.feed.kind == FeedKind::placed;
   const bool at_once = placed || s.feed.kind == FeedKind::lattice;
@@ -166,9 +168,8 @@ Expected expect(const Scene& s) {
   const double present = n * std::min(1.0, share) * (s.stepping.sleep && n > 200 ? kAwake : 1);
   const double cost = kContactCost[any_field(s) ? 2 : only_spheres(s) ? 0 : 1];
   e.cpu = e.steps * present * (kBodyCost + kContactsPerPellet * cost);
-  if (s.analysis.voxels && round_container(s))
-    e.grid =
-        std::pow(2 * s.container.radius / s.analysis.voxel, 2) * expected_height(s) / s.analysis.voxel / 8;
+  if (s.analysis.voxels && has_sides(s.container.kind))
+    e.grid = fed_area(s) / std::pow(s.analysis.voxel, 3) * expected_height(s) / 8;
   e.memory = kBaseMemory + n * kPelletMemory + e.grid * (s.output.voxels ? 33 : 2);
   return e;
 }
@@ -218,6 +219,9 @@ std::string container_text(const Scene& s) {
   if (c.kind == ContainerKind::tube)
     size = fmt::format(", inner diameter {}, height {}; exact wall and floor", q(2 * c.radius, D::length),
                        q(c.height, D::length));
+  if (c.kind == ContainerKind::box)
+    size = fmt::format(", {} x {}, height {}; exact sides and floor", q(c.width, D::length),
+                       q(c.depth, D::length), q(c.height, D::length));
   if (c.kind == ContainerKind::mesh)
     size = fmt::format(", {} triangles, height {}; walls through its mesh", c.surface.triangles.size(),
                        q(c.height, D::length));
@@ -305,7 +309,7 @@ std::string expected_text(const Scene& s, const Expected& e) {
       "  step {}{}, simulated {}, {:.3g} steps\n"
       "  time about {} of one core, memory about {:.0f} MB\n",
       expected_pellets(s),
-      fed_radius(s) > 0 || s.feed.kind == FeedKind::placed ? q(expected_height(s), D::length) : "unknown",
+      fed_area(s) > 0 || s.feed.kind == FeedKind::placed ? q(expected_height(s), D::length) : "unknown",
       q(e.speed, D::speed), q(e.stiffness, D::stiffness),
       s.pellet_contact.stiffness > 0
           ? " (given)"

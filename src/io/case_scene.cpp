@@ -71,6 +71,13 @@ ContactLaw contact_law(const ContactRecord& r) {
   law.allowed_overlap = r.allowed_overlap.value_or(0);
   law.torsion = r.torsion;
   law.rolling_friction = r.rolling_friction;
+  law.hertz = r.law == "hertz";
+  law.youngs_modulus = r.youngs_modulus.value_or(0);
+  law.poisson_ratio = r.poisson_ratio;
+  law.shear_modulus = r.shear_modulus.value_or(0);
+  law.dissipation = r.dissipation.value_or(0);
+  law.tangential_dissipation = r.tangential_dissipation.value_or(law.dissipation);
+  law.tangential_stiffness = r.tangential_stiffness.value_or(0);
   return law;
 }
 
@@ -101,6 +108,7 @@ Container make_container_of(const CaseRecord& record) {
     return load_container(name, (fs::path(record.folder) / r.file).string(),
                           cad_options(r.unit, r.recognise));
   if (r.shape == "tube") return make_tube(name, r.inner_diameter, r.height);
+  if (r.shape == "box") return make_box(name, r.width, r.depth, r.height);
   Container container;
   container.kind = r.shape == "plane" ? ContainerKind::plane : ContainerKind::none;
   container.name = name;
@@ -138,7 +146,7 @@ void check_fit(Problems& problems, const Scene& scene, const PelletKind& kind, c
                bounding = largest_scale(kind.sizes) * shape.bounding_radius;
   const double thickness = smallest * shape.smallest_thickness;
   const Container& c = scene.container;
-  const bool has_wall = c.radius > 0 && (c.kind == ContainerKind::tube || c.kind == ContainerKind::mesh);
+  const bool has_wall = c.radius > 0 && has_sides(c.kind);
   const double across = 2 * bounding, inner = 2 * c.radius;
   if (has_wall && largest_scale(kind.sizes) * shape.smallest_thickness > inner)
     problems.add(
@@ -175,7 +183,7 @@ void check_kernel(Problems& problems, const Scene& scene, const Shape& shape, co
 void check_container(Problems& problems, const Scene& scene) {
   const Container& c = scene.container;
   const Feed& feed = scene.feed;
-  const bool has_wall = c.kind == ContainerKind::tube || c.kind == ContainerKind::mesh;
+  const bool has_wall = has_sides(c.kind);
   if (feed.kind == FeedKind::placed) return;
   if (c.kind == ContainerKind::none)
     problems.add("container.shape", "\"none\" with a poured bed", "a container with a floor",
@@ -230,6 +238,11 @@ std::vector<std::string> contradictions(const CaseRecord& r, const std::string& 
     problems.add("feed", r.placed.empty() ? "no placed pellets" : "both csv and [[feed.placed]]",
                  "either csv = \"file\" or [[feed.placed]] tables");
   }
+  for (const auto& [contact, key] :
+       {std::pair{&r.pellet_contact, "contact"}, {&r.wall_contact, "contact.wall"}})
+    if (contact->law == "hertz" && contact->stiffness)
+      problems.add(fmt::format("{}.stiffness", key), "a stiffness with law = \"hertz\"",
+                   "youngs_modulus or allowed_overlap", "Hertz's stiffness grows with the overlap");
   if (r.analysis.to_diameters <= r.analysis.from_diameters)
     problems.add("analysis.to_diameters", fmt::format("{}", r.analysis.to_diameters),
                  fmt::format("more than from_diameters, {}", r.analysis.from_diameters));
@@ -248,6 +261,7 @@ Scene make_scene(const CaseRecord& r, const std::string& case_file, std::vector<
   scene.pellet_contact = contact_law(r.pellet_contact);
   scene.wall_contact = contact_law(r.wall_contact);
   scene.stepping = r.stepping;
+  scene.stepping.gear = r.integrator == "gear";
   scene.lattice = r.lattice;
   scene.analysis = r.analysis;
   scene.output = r.output;

@@ -76,6 +76,8 @@ Json container_json(const Container& container) {
                {"source", container.source},
                {"kind", std::string(to_string(container.kind))},
                {"radius_m", container.radius},
+               {"width_m", container.width},
+               {"depth_m", container.depth},
                {"height_m", container.height}};
   if (container.kind == ContainerKind::mesh) put_surface(json, container.surface);
   return json;

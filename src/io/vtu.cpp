@@ -154,6 +154,16 @@ Faces tube_inside(const Container& tube) {
   return out;
 }
 
+Faces box_inside(const Container& box) {
+  const double x = box.width / 2, y = box.depth / 2, z = box.height;
+  Faces out;
+  for (const double height : {0.0, z})
+    for (const Vec2& corner : {Vec2(-x, -y), Vec2(x, -y), Vec2(x, y), Vec2(-x, y)})
+      out.vertices.emplace_back(corner.x(), corner.y(), height);
+  out.faces = {{0, 1, 2, 3}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+  return out;
+}
+
 template <class T, class Value>
 std::string pellet_array(Grid& grid, const char* name, const std::vector<Pellet>& pellets,
                          const std::vector<std::size_t>& cells, const Value& value) {
@@ -225,8 +235,13 @@ void write_point_vtu(const std::string& path, const std::vector<Pellet>& pellets
 void write_container_vtu(const std::string& path, const Container& container) {
   Grid grid;
   const bool drawn = !container.surface.triangles.empty();
-  if (drawn || container.kind == ContainerKind::tube)
-    add_faces(grid, drawn ? faces_of(container.surface) : tube_inside(container), Pose{}, 1);
+  const bool box = container.kind == ContainerKind::box;
+  if (drawn || box || container.kind == ContainerKind::tube)
+    add_faces(grid,
+              drawn ? faces_of(container.surface)
+              : box ? box_inside(container)
+                    : tube_inside(container),
+              Pose{}, 1);
   write_grid(path, grid);
 }
 

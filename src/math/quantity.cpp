@@ -34,6 +34,9 @@ constexpr Unit kForce[] = {{"N", 0}, {"kN", 3}, {"mN", -3}, {"uN", -6}};
 constexpr Unit kStiffness[] = {{"N/m", 0}, {"N/mm", 3}, {"kN/m", 3}, {"mN/mm", 0}};
 constexpr Unit kEnergy[] = {{"J", 0}, {"mJ", -3}, {"uJ", -6}, {"nJ", -9}};
 
+constexpr Unit kPressure[] = {{"Pa", 0}, {"kPa", 3}, {"MPa", 6}, {"GPa", 9}};
+constexpr Unit kRate[] = {{"1/s", 0}, {"1/ms", 3}};
+
 std::span<const Unit> units(Dimension d) {
   switch (d) {
     case Dimension::length:
@@ -62,6 +65,10 @@ std::span<const Unit> units(Dimension d) {
       return kStiffness;
     case Dimension::energy:
       return kEnergy;
+    case Dimension::pressure:
+      return kPressure;
+    case Dimension::rate:
+      return kRate;
   }
   return {};
 }
@@ -198,6 +205,10 @@ std::string_view to_string(Dimension d) {
       return "stiffness";
     case Dimension::energy:
       return "energy";
+    case Dimension::pressure:
+      return "pressure";
+    case Dimension::rate:
+      return "rate";
   }
   return "";
 }

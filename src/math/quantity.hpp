@@ -18,7 +18,9 @@ enum class Dimension {
   angular_velocity,  // rad/s
   force,             // N
   stiffness,         // N/m
-  energy             // J
+  energy,            // J
+  pressure,          // Pa
+  rate               // 1/s
 };
 
 std::string_view to_string(Dimension);

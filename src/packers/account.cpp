@@ -39,6 +39,8 @@ bool inside(const Container& c, const Vec3& x) {
   if (x.z() < 0) return false;
   if (c.kind == ContainerKind::plane) return true;
   if (c.kind == ContainerKind::tube) return std::hypot(x.x(), x.y()) < c.radius && x.z() < c.height;
+  if (c.kind == ContainerKind::box)
+    return std::abs(x.x()) < 0.5 * c.width && std::abs(x.y()) < 0.5 * c.depth && x.z() < c.height;
   const Box3 box = bounding_box(c.surface);
   return x.z() < c.height && x.x() > box.min().x() && x.x() < box.max().x() && x.y() > box.min().y() &&
          x.y() < box.max().y();

@@ -98,7 +98,11 @@ double lowest_point(const Shape& shape, double scale, const Pose& pose) {
   return support(shape, scale, pose, Vec3(0, 0, -1)).z();
 }
 
-Room::Room(const Container& container) : kind_(container.kind), radius_(container.radius) {
+Room::Room(const Container& container)
+    : kind_(container.kind),
+      radius_(container.radius),
+      half_width_(0.5 * container.width),
+      half_depth_(0.5 * container.depth) {
   if (kind_ == ContainerKind::mesh) wall_ = std::make_unique<const TriangleTree>(container.surface);
 }
 Room::~Room() = default;
@@ -112,6 +116,9 @@ bool Room::holds_sphere(const Vec3& centre, double radius) const {
       return centre.z() >= radius;
     case ContainerKind::tube:
       return centre.z() >= radius && std::hypot(centre.x(), centre.y()) + radius <= radius_ * (1 + kRounding);
+    case ContainerKind::box:
+      return centre.z() >= radius && std::abs(centre.x()) + radius <= half_width_ * (1 + kRounding) &&
+             std::abs(centre.y()) + radius <= half_depth_ * (1 + kRounding);
     case ContainerKind::mesh:
       return wall_->signed_distance(centre) >= radius * (1 - kRounding);
   }
@@ -120,8 +127,14 @@ bool Room::holds_sphere(const Vec3& centre, double radius) const {
 
 double Room::overlap(const Shape& shape, double scale, const Pose& pose) const {
   double overlap = 0;
-  if (kind_ == ContainerKind::plane || kind_ == ContainerKind::tube)
+  if (kind_ == ContainerKind::plane || kind_ == ContainerKind::tube || kind_ == ContainerKind::box)
     overlap = -lowest_point(shape, scale, pose);
+  if (kind_ == ContainerKind::box)
+    for (const double sign : {-1.0, 1.0}) {
+      const auto beyond = [&](const Vec3& out) { return out.dot(support(shape, scale, pose, out)); };
+      overlap = std::max(
+          {overlap, beyond(sign * Vec3::UnitX()) - half_width_, beyond(sign * Vec3::UnitY()) - half_depth_});
+    }
   if (kind_ == ContainerKind::tube) overlap = std::max(overlap, radial_extent(shape, scale, pose) - radius_);
   if (kind_ == ContainerKind::mesh) {
     const double centre = wall_->signed_distance(pose.position);

@@ -23,7 +23,7 @@ class Room {
   ~Room();
 
   /// Whether a sphere lies wholly inside, above the floor and clear of the wall. Free space holds everything;
-  /// a tube has no lid and no end above its rim.
+  /// a tube or a box has no lid and no end above its rim.
   bool holds_sphere(const Vec3& centre, double radius) const;
   /// How far a pellet reaches into the floor or wall [m], 0 when clear. In a mesh container of the vertices
   /// of its surface (of a sphere exactly).
@@ -31,7 +31,7 @@ class Room {
 
  private:
   ContainerKind kind_;
-  double radius_;
+  double radius_, half_width_, half_depth_;
   std::unique_ptr<const TriangleTree> wall_;  // of a mesh container
 };
 

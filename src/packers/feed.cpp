@@ -87,8 +87,7 @@ std::vector<Pellet> placed_pellets(const Scene& scene) {
 
 /// Radius of the circle that centres may enter in.
 double feed_circle(const Scene& scene, double pellet_radius) {
-  const bool walls =
-      scene.container.kind == ContainerKind::tube || scene.container.kind == ContainerKind::mesh;
+  const bool walls = has_sides(scene.container.kind);
   const double given = scene.feed.radius;
   if (!walls) {
     if (given > 0) return given;

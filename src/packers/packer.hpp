@@ -60,6 +60,8 @@ PackResult pack_mesh(const Scene& scene, const Watch& watch, std::span<const std
 
 /// Spheres only, of any sizes: the same physics with what spheres make simpler. `state` as above.
 PackResult pack_spheres(const Scene& scene, const Watch& watch, std::span<const std::byte> state = {});
+/// The step that it would take [s]; throws as it does.
+double sphere_step(const Scene& scene);
 
 /// Pellets and container in cells of a lattice: methods digipac, digicgp and digidem. `state` as above.
 /// Throws InputError also for pellets too thin, containers that close and lattices too large at this voxel

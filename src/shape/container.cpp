@@ -91,6 +91,15 @@ void place_tube(Container& c, const TubeFit& tube) {
   move(c.surface, -tube.floor);
 }
 
+void place_box(Container& c, const BoxFit& box) {
+  c.kind = ContainerKind::box;
+  c.width = box.width;
+  c.depth = box.depth;
+  c.radius = std::min(box.width, box.depth) / 2;
+  c.height = box.height;
+  move(c.surface, -box.floor);
+}
+
 void place_mesh(Container& c) {
   c.kind = ContainerKind::mesh;
   const Vec3 middle = bounding_box(c.surface).center();
@@ -110,10 +119,16 @@ std::string_view to_string(ContainerKind kind) {
       return "plane";
     case ContainerKind::tube:
       return "tube";
+    case ContainerKind::box:
+      return "box";
     case ContainerKind::mesh:
       return "mesh";
   }
   return "";
+}
+
+bool has_sides(ContainerKind kind) {
+  return kind != ContainerKind::none && kind != ContainerKind::plane;
 }
 
 Container make_tube(const std::string& name, double inner_diameter, double height) {
@@ -127,6 +142,19 @@ Container make_tube(const std::string& name, double inner_diameter, double heigh
   return c;
 }
 
+Container make_box(const std::string& name, double width, double depth, double height) {
+  Container c;
+  c.kind = ContainerKind::box;
+  c.name = name;
+  c.source = fmt::format("box of {:.6g} x {:.6g} mm inside and height {:.6g} mm", 1e3 * width, 1e3 * depth,
+                         1e3 * height);
+  c.width = width;
+  c.depth = depth;
+  c.radius = std::min(width, depth) / 2;
+  c.height = height;
+  return c;
+}
+
 Container make_container(const std::string& name, const std::string& source, const TriangleMesh& mesh,
                          bool recognise) {
   Container c;
@@ -135,8 +163,11 @@ Container make_container(const std::string& name, const std::string& source, con
   c.surface = mesh;
   c.mesh_volume = mass_properties(mesh).volume;
   const std::optional<TubeFit> tube = recognise ? recognise_tube(mesh) : std::nullopt;
+  const std::optional<BoxFit> box = recognise && !tube ? recognise_box(mesh) : std::nullopt;
   if (tube)
     place_tube(c, *tube);
+  else if (box)
+    place_box(c, *box);
   else
     place_mesh(c);
   return c;

@@ -270,4 +270,32 @@ std::optional<TubeFit> recognise_tube(const TriangleMesh& mesh) {
   return {};
 }
 
+std::optional<BoxFit> recognise_box(const TriangleMesh& mesh) {
+  const Box3 outside = bounding_box(mesh);
+  const double tolerance = kRecogniseTolerance * outside.sizes().maxCoeff();
+  // every facet lies in a plane across an axis; those of the outside are known, the rest is the inside
+  Box3 inside(Vec3::Constant(-INFINITY), Vec3::Constant(INFINITY));
+  for (const auto& t : mesh.triangles) {
+    const Vec3 area = triangle_area_vector(mesh, t);
+    int axis = 0;
+    area.cwiseAbs().maxCoeff(&axis);
+    const double at = corner(mesh, t, 0)[axis], sign = area[axis] > 0 ? 1.0 : -1.0;
+    for (int k = 1; k < 3; ++k)
+      if (std::abs(corner(mesh, t, k)[axis] - at) > tolerance) return std::nullopt;
+    const double hull = sign > 0 ? outside.max()[axis] : outside.min()[axis];
+    if (std::abs(at - hull) <= tolerance) continue;
+    double& side = sign > 0 ? inside.min()[axis] : inside.max()[axis];
+    if (std::isfinite(side) && std::abs(side - at) > tolerance) return std::nullopt;
+    side = at;
+  }
+  if (std::isfinite(inside.max().z())) return std::nullopt;  // a lid
+  inside.max().z() = outside.max().z();
+  if (!inside.min().allFinite() || !inside.max().allFinite() || inside.isEmpty()) return std::nullopt;
+  // what is missing from the block is the inside and nothing else
+  const double hollow = outside.volume() - mass_properties(mesh).volume;
+  if (std::abs(hollow - inside.volume()) > 3 * kRecogniseTolerance * outside.volume()) return std::nullopt;
+  const Vec3 size = inside.sizes(), middle = inside.center();
+  return BoxFit{Vec3(middle.x(), middle.y(), inside.min().z()), size.x(), size.y(), size.z()};
+}
+
 }  // namespace packbed

@@ -31,4 +31,12 @@ struct TubeFit {
 /// else inside. Its outside may have any form.
 std::optional<TubeFit> recognise_tube(const TriangleMesh& mesh);
 
+struct BoxFit {
+  Vec3 floor;                               // centre of the floor's inner face [m]
+  double width = 0, depth = 0, height = 0;  // of the inside along x, y, z [m]
+};
+/// A closed mesh of the wall of an upright box (open towards +z) whose sides, inner and outer, stand along x
+/// and y.
+std::optional<BoxFit> recognise_box(const TriangleMesh& mesh);
+
 }  // namespace packbed

@@ -94,5 +94,79 @@ TEST(SphereCluster, LosesWhatItsBooksSay) {
   }
 }
 
+/// Velocity and surface speed (spin times radius) of pellet 0 at the end, at so many steps a contact.
+std::pair<Vec3, Vec3> thrown(Scene s, double steps_per_contact, double duration) {
+  s.stepping.steps_per_contact = steps_per_contact;
+  const Pellet p = run(std::move(s), duration).end();
+  return {p.velocity, 0.265e-3 * p.spin};
+}
+
+// Mass ratio 4e4: the history of the friction of a small sphere at a large one, which turns the line between
+// their centres fast (Vyas et al. 2025). The same throw with steps twenty times shorter is the reference.
+TEST(SizeRatio34, SmallSphereLeavesALargeOneAsWithShortSteps) {
+  for (const double aside : {0.2, 0.5, 0.8}) {
+    Scene s =
+        sphere_scene(ContainerKind::none, {make_sphere("small", 0.265e-3), make_sphere("large", 9.12e-3)});
+    set_contact(s, 0.8, 0);
+    const double reach = 9.385e-3;
+    place(s, {aside * reach, 0, std::sqrt(1 - aside * aside) * reach + 1e-5}).velocity = {0, 0, -1};
+    place(s, {0, 0, 0}).kind = 1;
+    const auto [v, w] = thrown(s, 20, 3e-4);
+    const auto [v_fine, w_fine] = thrown(s, 400, 3e-4);
+    ASSERT_GT(v_fine.x(), 0.05);
+    EXPECT_LT((v - v_fine).norm(), 0.01) << aside;
+    EXPECT_LT((w - w_fine).norm(), 0.01) << aside;
+  }
+}
+
+// Two large spheres close on a small one between them, off their line: it must come out, neither stuck nor
+// thrown.
+TEST(SizeRatio34, SmallSphereIsPressedOutBetweenTwoLargeOnes) {
+  Scene s =
+      sphere_scene(ContainerKind::none, {make_sphere("small", 0.265e-3), make_sphere("large", 9.12e-3)});
+  set_contact(s, 0.1, 0.1);  // the wedge of 13.6 degrees holds a sphere when friction is over 0.24
+  const double apart = 9.385e-3 * std::cos(0.21), off = 9.385e-3 * std::sin(0.21);
+  place(s, {0, 0, off + 1e-6});
+  for (const double side : {-1.0, 1.0}) {
+    PlacedPellet& large = place(s, {side * (apart + 1e-6), 0, 0});
+    large.kind = 1;
+    large.velocity = {-side * 0.05, 0, 0};
+  }
+  const auto [v, w] = thrown(s, 20, 1.5e-3);
+  const auto [v_fine, w_fine] = thrown(s, 200, 1.5e-3);
+  ASSERT_GT(v_fine.z(), 0.05);
+  EXPECT_NEAR(v.z() / v_fine.z(), 1, 0.01);
+  EXPECT_LT(std::hypot(v.x(), v.y()), 1e-6);
+}
+
+// A ball that rolls on a floor: rolling friction brakes it by mu_r g / (1 + 2/5).
+TEST(RollingFriction, BrakesARollingBall) {
+  const double radius = 2e-3, mu = 0.05, speed = 0.2;
+  Scene s = sphere_scene(ContainerKind::plane, {make_sphere("ball", radius)});
+  set_contact(s, 0.5, 0.3);
+  s.wall_contact.rolling_friction = mu;
+  s.gravity = {0, 0, -kGravity};
+  PlacedPellet& p = place(s, {0, 0, radius});
+  p.velocity = {speed, 0, 0};
+  p.spin = {0, speed / radius, 0};
+  const double time = 0.3;
+  EXPECT_NEAR(run(s, time).end().velocity.x(), speed - mu * kGravity / 1.4 * time, 0.002);
+  s.wall_contact.rolling_friction = 0;
+  EXPECT_NEAR(run(s, time).end().velocity.x(), speed, 1e-4);
+}
+
+// Both integrators tend to the same course.
+TEST(Gear, FollowsTheCourseOfVelocityVerlet) {
+  Scene s = cluster(0.3, 0.1);
+  s.stepping.steps_per_contact = 200;
+  const double end = 0.012;  // the first impacts; later ones tell apart what rounding has made different
+  const Course verlet = run(s, end);
+  s.stepping.gear = true;
+  const Course gear = run(s, end);
+  ASSERT_GT(verlet.result.record.counters.at("touches"), 100);
+  for (std::size_t i = 0; i < 100; ++i)
+    EXPECT_LT((gear.end(i).pose.position - verlet.end(i).pose.position).norm(), 2e-6) << i;
+}
+
 }  // namespace
 }  // namespace packbed

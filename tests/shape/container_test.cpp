@@ -106,13 +106,39 @@ TEST(MakeContainer, SolidBlockHasNoInside) {
   EXPECT_DOUBLE_EQ(c.height, 0);
 }
 
-// Walls as four slabs on a plate: a square box of 40 mm, joined to one solid by its profile.
-TEST(MakeContainer, SquareBoxKeepsItsFreeCircle) {
-  TriangleMesh box = revolved({{0, 0}, {0.03, 0}, {0.03, 0.1}, {0.02, 0.1}, {0.02, 0.004}, {0, 0.004}}, 4);
-  const Container c = make_container("box", "file", box);
+// A square cup whose corners lie on the axes: its sides do not stand along x and y.
+TriangleMesh diamond() {
+  return revolved({{0, 0}, {0.03, 0}, {0.03, 0.1}, {0.02, 0.1}, {0.02, 0.004}, {0, 0.004}}, 4);
+}
+
+TEST(MakeContainer, SlantedBoxKeepsItsFreeCircle) {
+  const Container c = make_container("box", "file", diamond());
   EXPECT_EQ(c.kind, ContainerKind::mesh);
   EXPECT_NEAR(c.radius, 0.02 * std::cos(kPi / 4), 1e-12);
   EXPECT_NEAR(c.height, 0.096, 1e-12);
+}
+
+TEST(MakeContainer, RecognisesABoxThatStandsAlongTheAxes) {
+  const Quat turn(Eigen::AngleAxisd(kPi / 4, Vec3::UnitZ()));
+  TriangleMesh box = transformed(diamond(), 1, turn, Vec3(0.5, 0.2, -0.3));
+  for (Vec3& v : box.vertices) v.y() = 0.2 + 1.5 * (v.y() - 0.2);
+  const Container c = make_container("box", "file", box);
+  ASSERT_EQ(c.kind, ContainerKind::box);
+  EXPECT_NEAR(c.width, 0.02 * std::sqrt(2), 1e-9);
+  EXPECT_NEAR(c.depth, 0.03 * std::sqrt(2), 1e-9);
+  EXPECT_NEAR(c.radius, c.width / 2, 1e-12);
+  EXPECT_NEAR(c.height, 0.096, 1e-12);
+  EXPECT_NEAR(bounding_box(c.surface).min().z(), -0.004, 1e-12);
+  EXPECT_LT(bounding_box(c.surface).center().head<2>().norm(), 1e-9);
+  EXPECT_EQ(make_container("box", "file", box, false).kind, ContainerKind::mesh);
+}
+
+TEST(MakeBox, IsGivenByItsSizes) {
+  const Container c = make_box("box", 0.2, 0.3, 2);
+  EXPECT_EQ(c.kind, ContainerKind::box);
+  EXPECT_DOUBLE_EQ(c.radius, 0.1);
+  EXPECT_DOUBLE_EQ(c.height, 2);
+  EXPECT_TRUE(c.surface.triangles.empty());
 }
 
 TEST(MakeTube, IsGivenByItsSizes) {

@@ -123,10 +123,10 @@ LatticeRules settled(const Scene& scene, double largest) {
 
 Model make_model(const Scene& scene) {
   const Container& c = scene.container;
-  if (c.kind != ContainerKind::tube && c.kind != ContainerKind::mesh)
+  if (!has_sides(c.kind))
     throw InputError("container", std::string(to_string(c.kind)),
-                     "a container with sides (tube or mesh) for method " + scene.method,
-                     "a lattice ends somewhere: take a tube, or method = \"mesh\"");
+                     "a container with sides (tube, box or mesh) for method " + scene.method,
+                     "a lattice ends somewhere: take a tube or a box, or method = \"mesh\"");
   Model model;
   model.scene = &scene;
   model.method = scene.method == "digicgp" ? Method::digicgp : Method::digipac;

@@ -25,7 +25,8 @@ void audit_walls(RunRecord& record, const Model& model, const State& state) {
   const Pairs& pairs = state.pairs;
   for (std::size_t p = 0; p < pairs.pair.size(); ++p) {
     if (!is_container(pairs.pair[p].b)) continue;
-    (pairs.pair[p].b == kWall ? shear : base) += model.up.dot(pairs.load[p].force);
+    (pairs.pair[p].b == kWall || is_side(pairs.pair[p].b) ? shear : base) +=
+        model.up.dot(pairs.load[p].force);
   }
   for (std::size_t i = 0; i < state.bodies.size(); ++i)
     if (state.bodies.motion[i] != Motion::fixed) weight += state.bodies.mass[i] * model.gravity.norm();

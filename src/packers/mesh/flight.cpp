@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "packers/mesh/kernels.hpp"
+
 namespace packbed::mesh {
 namespace {
 
@@ -22,8 +24,17 @@ double meeting(const Bodies& b, std::size_t i, std::size_t j) {
 
 /// Earliest time from now at which a flying body can reach the wall of the container.
 double meeting_wall(const Model& model, const Bodies& b, std::size_t i) {
-  if (model.container.kind != ContainerKind::tube) return kNever;
   const Vec3 &x = b.position[i], &v = b.velocity[i];
+  if (model.container.kind == ContainerKind::box) {
+    double first = kNever;
+    for (std::uint32_t side = 0; side < 4; ++side) {
+      const BoxSide s = side_of(model.container, side);
+      const double room = s.distance(x) - b.bounding_radius[i], closing = -s.inwards.dot(v);
+      if (closing > 0) first = std::min(first, std::max(0.0, room) / closing);
+    }
+    return first;
+  }
+  if (model.container.kind != ContainerKind::tube) return kNever;
   const double room = model.container.radius - b.bounding_radius[i] - std::hypot(x.x(), x.y());
   const double speed = std::hypot(v.x(), v.y());
   if (room < -1e-9 * model.container.radius) return 0;

@@ -18,8 +18,46 @@ double radius_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
   return bodies.scale[i] * model.kinds[bodies.kind[i]].shape->radius;
 }
 
+/// The side of a box is a floor that has been turned up.
+Touch touch_side(const Model& model, const Bodies& bodies, std::uint32_t a, const BoxSide& side,
+                 double& gap) {
+  const Kind& kind = model.kinds[bodies.kind[a]];
+  const Vec3& x = bodies.position[a];
+  gap = side.distance(x) - bodies.bounding_radius[a];
+  if (gap > 0) return {};
+  const Quat lay = Quat::FromTwoVectors(side.inwards, Vec3::UnitZ()), raise = lay.conjugate();
+  const Vec3 up = side.half * Vec3::UnitZ(), laid = lay * x + up;
+  Touch t;
+  switch (kind.kernel) {
+    case Kernel::sphere:
+      t = touch_floor(laid, radius_of(model, bodies, a));
+      break;
+    case Kernel::cylinder: {
+      Rod rod = rod_of(model, bodies, a);
+      rod.centre = laid;
+      rod.axis = lay * rod.axis;
+      t = touch_floor(rod, gap);
+      break;
+    }
+    case Kernel::field: {
+      FieldPellet pellet = field_of(model, bodies, a);
+      pellet.pose = {laid, lay * pellet.pose.rotation};
+      t = touch_floor(pellet);
+      break;
+    }
+  }
+  t.gradient = raise * t.gradient;
+  t.torque_a = raise * t.torque_a;
+  t.torque_b = raise * t.torque_b;
+  t.point = raise * (t.point - up);
+  const Mat3 turn = raise.toRotationMatrix();
+  t.patch = turn * t.patch * turn.transpose();
+  return t;
+}
+
 Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std::uint32_t which,
                  double& gap) {
+  if (is_side(which)) return touch_side(model, bodies, a, side_of(model.container, which - kSide), gap);
   const Vec3& x = bodies.position[a];
   const Kind& kind = model.kinds[bodies.kind[a]];
   if (which == kSolid) return touch_container(field_of(model, bodies, a), *model.wall_field, &gap);
@@ -51,6 +89,11 @@ Touch touch_rods(const Rod& a, const Rod& b, PairRecord& record, double& gap) {
 }
 
 }  // namespace
+
+BoxSide side_of(const Container& box, std::uint32_t number) {
+  const Vec3 along = number < 2 ? Vec3::UnitX() : Vec3::UnitY();
+  return {number % 2 == 0 ? Vec3(-along) : along, 0.5 * (number < 2 ? box.width : box.depth)};
+}
 
 Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
   const Shape& shape = *model.kinds[bodies.kind[i]].shape;

@@ -5,6 +5,14 @@
 
 namespace packbed::mesh {
 
+/// A side of a box: its number counts +x, -x, +y, -y.
+struct BoxSide {
+  Vec3 inwards;     // unit normal
+  double half = 0;  // from the axis [m]
+  double distance(const Vec3& x) const { return inwards.dot(x) + half; }
+};
+BoxSide side_of(const Container& box, std::uint32_t number);
+
 /// Body i, of a cylinder kind, where it is.
 Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i);
 

@@ -134,7 +134,8 @@ Model make_model(const Scene& scene) {
   model.may_fly =
       scene.feed.kind != FeedKind::placed && scene.gravity.norm() > 0 &&
       scene.gravity.cross(Vec3::UnitZ()).norm() < 1e-12 * scene.gravity.norm() &&
-      (scene.container.kind == ContainerKind::tube || scene.container.kind == ContainerKind::plane);
+      (scene.container.kind == ContainerKind::tube || scene.container.kind == ContainerKind::box ||
+       scene.container.kind == ContainerKind::plane);
   model.expected_time = expected_time(scene);
   return model;
 }

@@ -50,9 +50,13 @@ Model make_model(const Scene& scene);
 std::string kernel_name(const Model& model);
 
 // Partners that stand for the container in a pair, after all bodies in sorted order.
+inline constexpr std::uint32_t kSide = 0xfffffff9;  // of a box: this and the three after it
 inline constexpr std::uint32_t kFloor = 0xfffffffd, kWall = 0xfffffffe, kSolid = 0xffffffff;
+inline bool is_side(std::uint32_t b) {
+  return b >= kSide && b < kFloor;
+}
 inline bool is_container(std::uint32_t b) {
-  return b >= kFloor;
+  return b >= kSide;
 }
 
 /// What a pair does to its bodies now: all that summing up needs, by itself for the sake of the cache.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "packers/mesh/flight.hpp"
+#include "packers/mesh/kernels.hpp"
 #include "packers/mesh/step.hpp"
 
 namespace packbed::mesh {
@@ -52,6 +53,9 @@ void add_container_pairs(const Model& model, const State& state, std::vector<Bod
     const Vec3& x = b.position[i];
     if (kind == ContainerKind::mesh) pairs.push_back({i, kSolid});
     if (kind != ContainerKind::mesh && x.z() < reach) pairs.push_back({i, kFloor});
+    if (kind == ContainerKind::box)
+      for (std::uint32_t side = 0; side < 4; ++side)
+        if (side_of(model.container, side).distance(x) < reach) pairs.push_back({i, kSide + side});
     if (kind == ContainerKind::tube && std::hypot(x.x(), x.y()) + reach > model.container.radius)
       pairs.push_back({i, kWall});
   }

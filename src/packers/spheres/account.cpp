@@ -15,18 +15,20 @@ Vec3 vec(const Quad& q) {
 /// All listed contacts as they are now; nothing moves on.
 struct Contacts {
   std::vector<SphereContact> pairs, walls;
+  std::vector<Quad> sides;  // of a mesh container: see sides_of
 };
 Contacts contacts_of(const Model& model, State& state) {
   Spheres& s = state.spheres;
   SphereView view = view_of(s);
   view.ahead = view.velocity;  // both are those of the end of the step now
   Contacts out{std::vector<SphereContact>(state.pairs.pair.size()),
-               std::vector<SphereContact>(state.walls.pair.size())};
+               std::vector<SphereContact>(state.walls.pair.size()),
+               {}};
   SphereTally unused;
   touch_spheres(model.pellet_law, view, 0.0, state.pairs.pair, state.pairs.memory_from(0), unused,
                 out.pairs.data());
-  touch_walls(model.wall_law, view, 0.0, model.walls, state.walls.pair, state.walls.memory_from(0), unused,
-              out.walls.data());
+  touch_container_walls(model, state, view, 0.0, 0, out.walls.size(), unused, out.walls.data());
+  if (model.solid) out.sides = sides_of(model, state, 0, out.walls.size());
   return out;
 }
 
@@ -105,7 +107,7 @@ PackedBed bed_of(const Scene& scene, const Model& model, State& state) {
     const SphereContact& c = contacts.walls[p];
     if (!(c.force.w > 0)) continue;
     const auto [a, w] = state.walls.pair[p];
-    const Vec3 x = vec(s.place[a]), flat = vec(model.walls[w]);
+    const Vec3 x = vec(s.place[a]), flat = vec(model.solid ? contacts.sides[p] : model.walls[w]);
     const Vec3 normal = flat.squaredNorm() > 0.5 ? flat : Vec3(-x.x(), -x.y(), 0).normalized();
     bed.contacts.push_back(
         {s.id[a], kContainer, x - (s.place[a].w - 0.5 * c.force.w) * normal, vec(c.force), c.force.w});

@@ -19,6 +19,9 @@ void visit(Archive& io, S& s) {
   auto& b = s.spheres;
   io(b.id), io(b.kind), io(b.scale), io(b.place), io(b.velocity), io(b.spin), io(b.ahead), io(b.force),
       io(b.torque), io(b.listed_at);
+  for (auto& of : s.gear.position) io(of);
+  for (auto& of : s.gear.spin) io(of);
+  io(s.gear.spin_ahead);
   visit_list(io, s.pairs), visit_list(io, s.walls);
   io(s.slot), io(s.slot_first), io(s.tally), io(s.search_due), io(s.searches);
   visit_rest(io, s.rest);

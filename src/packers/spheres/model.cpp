@@ -8,6 +8,7 @@
 #include "contact/law.hpp"
 #include "math/error.hpp"
 #include "packers/expect.hpp"
+#include "packers/packer.hpp"
 
 namespace packbed::spheres {
 namespace {
@@ -38,11 +39,16 @@ std::vector<SphereWall> make_walls(const Scene& scene) {
       return {{0, 0, 1, 0}};
     case ContainerKind::tube:
       return {{0, 0, 1, 0}, {0, 0, 0, c.radius}};
+    case ContainerKind::box:
+      return {{0, 0, 1, 0},
+              {1, 0, 0, -0.5 * c.width},
+              {-1, 0, 0, -0.5 * c.width},
+              {0, 1, 0, -0.5 * c.depth},
+              {0, -1, 0, -0.5 * c.depth}};
     case ContainerKind::mesh:
-      break;
+      break;  // see SolidWall
   }
-  throw InputError(scene.case_file + ": container", "a container that was not recognised",
-                   "a tube, a plane or free space", "method = \"mesh\" takes any container");
+  return {};
 }
 
 /// Radii and densities of the smallest and the largest sphere that the scene can hold.
@@ -64,36 +70,66 @@ double mass_of(double radius, double density) {
   return density * 4.0 / 3.0 * kPi * radius * radius * radius;
 }
 
+/// Speed of the hardest impact [m/s]; a bed that is only placed has to carry itself too.
+double impact_speed(const Scene& scene) {
+  return std::max(landing_speed(scene), 0.1);
+}
+
+/// Factor of R* in Hooke's stiffness, or of sqrt(R* delta) delta in Hertz's force [Pa], by which the hardest
+/// impact on the wall (R* = R) overlaps no size by more than is allowed. As m goes like R^3 and the overlap
+/// like R, one modulus serves all sizes.
+double modulus_for(const ContactLaw& law, const std::vector<Kind>& kinds, double speed) {
+  double modulus = 0;
+  for (const Kind& kind : kinds) {
+    const double overlap = law.allowed_overlap * 2.0 * kind.radius;
+    const double push =
+        mass_of(kind.radius, kind.density) * speed * speed / overlap;  // twice the energy over the way
+    modulus = std::max(modulus, law.hertz ? 1.25 * push / (std::sqrt(kind.radius * overlap) * overlap)
+                                          : push / (kind.radius * overlap));
+  }
+  return modulus;
+}
+
+/// Tangential over normal stiffness of Mindlin: 4 G* / E* of two bodies of one material.
+double mindlin_share(const ContactLaw& law) {
+  const double nu = law.poisson_ratio, young = law.youngs_modulus;
+  const double shear = law.shear_modulus > 0 ? law.shear_modulus : young / (2.0 * (1.0 + nu));
+  return 4.0 * (shear / (2.0 * (2.0 - nu))) / (young / (2.0 * (1.0 - nu * nu)));
+}
+
 SphereLaw find_law(const Scene& scene, const ContactLaw& law, const std::vector<Kind>& kinds) {
   SphereLaw out;
+  out.hertz = law.hertz;
   out.stiffness = law.stiffness;
-  if (!(law.stiffness > 0)) {
-    // the hardest impact of any sphere on a wall, R* = R, may overlap by so much: as m goes like R^3 and the
-    // overlap like R, k goes like R and one modulus serves all sizes
-    const double speed =
-        std::max(landing_speed(scene), 0.1);  // a bed that is only placed has to carry itself too
-    for (const Kind& kind : kinds) {
-      const double overlap = law.allowed_overlap * 2.0 * kind.radius;
-      out.modulus = std::max(out.modulus, mass_of(kind.radius, kind.density) * speed * speed /
-                                              (overlap * overlap * kind.radius));
-    }
-  }
+  if (law.youngs_modulus > 0)
+    out.modulus = 4.0 / 3.0 * law.youngs_modulus / (2.0 * (1.0 - law.poisson_ratio * law.poisson_ratio));
+  else if (!(law.stiffness > 0))
+    out.modulus = modulus_for(law, kinds, impact_speed(scene));
+  out.tangential_share = law.tangential_stiffness > 0 ? law.tangential_stiffness
+                         : law.youngs_modulus > 0     ? mindlin_share(law)
+                                                      : kTangentialShare;
   out.damping_ratio = law.damping_ratio;
+  out.tangential_damping = std::sqrt(out.tangential_share);  // the same damping ratio of its own spring
+  out.dissipation = law.dissipation;
+  out.tangential_dissipation = law.tangential_dissipation;
   out.friction = law.friction;
-  out.tangential_share = kTangentialShare;
-  out.tangential_damping = std::sqrt(kTangentialShare);  // the same damping ratio of its own spring
+  out.rolling_friction = law.rolling_friction;
   return out;
 }
 
-/// Contact time of the stiffest contact, by the stiffness at the deepest overlap that is allowed.
-double shortest_contact(const Model& model, const Extremes& e) {
-  const auto time = [&](const SphereLaw& law, double radius, double mass) {
-    const Four slope = elastic_of(law, four(radius), four(0.1 * e.smallest)).slope;
-    return kPi * std::sqrt(mass / slope[0]);
-  };
+/// Contact time of the stiffest contact: of the smallest sphere, by the stiffness at the deepest overlap of
+/// the hardest impact.
+double shortest_contact(const Model& model, const Extremes& e, double speed) {
   const double mass = mass_of(e.smallest, e.density);
+  const auto time = [&](const SphereLaw& law, double radius, double reduced) {
+    const double deepest =
+        law.hertz ? std::pow(1.25 * reduced * speed * speed / (law.modulus * std::sqrt(radius)), 0.4) : 1.0;
+    return kPi * std::sqrt(reduced / elastic_of(law, four(radius), four(deepest)).slope[0]);
+  };
   const double pellets = time(model.pellet_law, 0.5 * e.smallest, 0.5 * mass);
-  return model.walls.empty() ? pellets : std::min(pellets, time(model.wall_law, e.smallest, mass));
+  return model.container.kind == ContainerKind::none
+             ? pellets
+             : std::min(pellets, time(model.wall_law, e.smallest, mass));
 }
 
 }  // namespace
@@ -110,8 +146,14 @@ Model make_model(const Scene& scene) {
   model.turns = model.pellet_law.friction > 0 || model.wall_law.friction > 0;
   model.rolls = model.pellet_law.rolling_friction > 0 || model.wall_law.rolling_friction > 0;
   model.stepping = scene.stepping;
+  model.gear = scene.stepping.gear;
   const Extremes e = extremes_of(model.kinds);
-  const double contact = shortest_contact(model, e);
+  if (scene.container.kind == ContainerKind::mesh) {
+    std::vector<ShapePtr> shapes;
+    for (const PelletKind& pellet : scene.pellets) shapes.push_back(pellet.shape);
+    model.solid = std::make_shared<SolidWall>(scene.container, shapes, 2.0 * e.smallest);
+  }
+  const double contact = shortest_contact(model, e, impact_speed(scene));
   model.step = scene.stepping.step > 0 ? scene.stepping.step : contact / scene.stepping.steps_per_contact;
   // below six steps a contact the explicit scheme gains energy in deep touches (docs/mesh_packer.md)
   if (model.step > contact / 6.0)
@@ -125,3 +167,11 @@ Model make_model(const Scene& scene) {
 }
 
 }  // namespace packbed::spheres
+
+namespace packbed {
+
+double sphere_step(const Scene& scene) {
+  return spheres::make_model(scene).step;
+}
+
+}  // namespace packbed

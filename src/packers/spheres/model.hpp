@@ -5,12 +5,15 @@
 // Spheres stand in memory in the order of a space-filling curve, in fixed chunks. A chunk computes the pairs
 // that its spheres have found; what a pair does to a sphere of another chunk goes into a slot, which that
 // chunk adds later. So the order of every sum is that of the lists, whatever the number of threads.
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "bed/scene.hpp"
 #include "contact/sphere_pairs.hpp"
 #include "packers/rest_watch.hpp"
+#include "packers/spheres/solid_wall.hpp"
 
 namespace packbed::spheres {
 
@@ -23,10 +26,12 @@ struct Kind {
 struct Model {
   std::vector<Kind> kinds;
   Container container;
-  std::vector<SphereWall> walls;  // flat and round ones; the first is the floor
+  std::vector<SphereWall> walls;           // flat and round ones; the first is the floor
+  std::shared_ptr<const SolidWall> solid;  // of a container that was not recognised, instead of these
   Vec3 gravity = Vec3::Zero(), up = Vec3::UnitZ();
   SphereLaw pellet_law, wall_law;
   bool turns = false, rolls = false;  // some law has friction, rolling friction
+  bool gear = false;                  // integrator: Gear's instead of velocity Verlet
   double step = 0;                    // [s]
   double skin = 0;                    // of the lists, fraction of the radius
   Stepping stepping;
@@ -48,6 +53,13 @@ struct Spheres {
   std::vector<Quad> listed_at;      // centre at the last search, square of the way that it may go [m], [m2]
 
   std::size_t size() const { return id.size(); }
+};
+
+/// Of Gear's scheme only: scaled derivatives dt^n / n! d^n x / dt^n, one entry a sphere; empty otherwise.
+struct Gear {
+  std::array<std::vector<Quad>, 4> position;  // n = 2 to 5 [m]
+  std::array<std::vector<Quad>, 4> spin;      // n = 1 to 4 [rad/s]
+  std::vector<Quad> spin_ahead;               // predicted [rad/s]
 };
 
 inline constexpr std::size_t kChunk = 512;  // spheres
@@ -73,6 +85,7 @@ struct State {
   double time = 0;  // simulated [s]
   std::int64_t steps = 0;
   Spheres spheres;
+  Gear gear;
   List<SpherePair> pairs;
   List<SphereWallPair> walls;
   // slots, entries of force and torque beyond the spheres: those of sphere i are slot[slot_first[i]] and on

@@ -99,6 +99,11 @@ Before sort_memory(State& state) {
   reorder(s.id, order), reorder(s.kind, order), reorder(s.scale, order);
   reorder(s.place, order), reorder(s.velocity, order), reorder(s.spin, order), reorder(s.ahead, order);
   reorder(s.force, order), reorder(s.torque, order), reorder(s.listed_at, order);
+  if (!state.gear.spin_ahead.empty()) {
+    for (std::vector<Quad>& of : state.gear.position) reorder(of, order);
+    for (std::vector<Quad>& of : state.gear.spin) reorder(of, order);
+    reorder(state.gear.spin_ahead, order);
+  }
   return order;
 }
 
@@ -178,21 +183,27 @@ void list_pairs(const Model& model, State& state, const std::vector<Quad>& reach
   });
 }
 
+double distance_from(const SphereWall& wall, const Vec3& x) {
+  const bool round = vec(wall).squaredNorm() < 0.5;
+  return round ? wall.w - std::hypot(x.x(), x.y()) : vec(wall).dot(x) - wall.w;
+}
+
 void list_walls(const Model& model, State& state, const std::vector<Quad>& reach, const Before& before) {
   const Spheres& s = state.spheres;
   const Memory<SphereWallPair> memory(state.walls);
   std::vector<std::vector<SphereWallPair>> found(1);
   std::vector<std::uint32_t> counts(s.size());
-  for (std::uint32_t i = 0; i < s.size(); ++i)
-    for (std::uint32_t w = 0; w < model.walls.size() && s.velocity[i].w > 0; ++w) {
-      const SphereWall& wall = model.walls[w];
-      const bool round = vec(wall).squaredNorm() < 0.5;
-      const double distance =
-          round ? wall.w - std::hypot(reach[i].x, reach[i].y) : vec(wall).dot(vec(reach[i])) - wall.w;
-      if (distance >= reach[i].w) continue;
-      found[0].push_back({i, w});
+  for (std::uint32_t i = 0; i < s.size(); ++i) {
+    if (!(s.velocity[i].w > 0)) continue;
+    const auto add = [&](std::uint32_t wall, double distance) {
+      if (distance >= reach[i].w) return;
+      found[0].push_back({i, wall});
       ++counts[i];
-    }
+    };
+    const Vec3 x = vec(reach[i]);
+    for (std::uint32_t w = 0; w < model.walls.size(); ++w) add(w, distance_from(model.walls[w], x));
+    if (model.solid) add(0, model.solid->distance(x));
+  }
   List<SphereWallPair>& list = state.walls;
   join(found, counts, model, list);
   for (std::size_t p = 0; p < list.pair.size(); ++p) {
@@ -261,6 +272,7 @@ void find_pairs(const Model& model, State& state) {
   state.search_due = 0;
   settle_accounts(state);
   Spheres& s = state.spheres;
+  if (model.gear) begin_gear(model, state);
   // who has entered since the last search stands at the end, and has no springs yet
   const Before before = sort_memory(state);
   ++state.searches;

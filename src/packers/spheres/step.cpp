@@ -4,8 +4,10 @@
 #include <atomic>
 
 #include "math/clock.hpp"
+#include "math/simd.hpp"
 #include "math/threads.hpp"
 #include "packers/run_watch.hpp"
+#include "packers/spheres/chunks.hpp"
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are only passed between functions that are inlined
@@ -13,21 +15,6 @@
 
 namespace packbed::spheres {
 namespace {
-
-PACKBED_INLINE Four four_of(const Vec3& v) {
-  return Four{v.x(), v.y(), v.z(), 0.0};
-}
-PACKBED_INLINE Four spread_w(const Four& v) {
-  return __builtin_shufflevector(v, v, 3, 3, 3, 3);
-}
-
-/// Calls body(begin, end) for each chunk of spheres.
-template <class Body>
-void for_each_chunk(std::size_t spheres, const Body& body) {
-  parallel_for(chunks_of(spheres), 1, [&](std::size_t from, std::size_t to) {
-    for (std::size_t c = from; c < to; ++c) body(c, c * kChunk, std::min(spheres, (c + 1) * kChunk));
-  });
-}
 
 template <class Pair>
 std::span<const Pair> pairs_of(const List<Pair>& list, std::size_t begin, std::size_t end) {
@@ -40,9 +27,9 @@ void step(const Model& model, State& state, Feeder& feeder, PhaseTimes& times) {
   double last = wall_seconds();
   feed(model, state, feeder), add_phase(times[kFeed], last);
   find_pairs(model, state), add_phase(times[kFindPairs], last);
-  kick_drift(model, state), add_phase(times[kKickDrift], last);
+  model.gear ? predict(model, state) : kick_drift(model, state), add_phase(times[kKickDrift], last);
   touch(model, state), add_phase(times[kTouch], last);
-  gather_kick(model, state), add_phase(times[kGatherKick], last);
+  model.gear ? correct(model, state) : gather_kick(model, state), add_phase(times[kGatherKick], last);
   rest(model, state, feeder), add_phase(times[kRest], last);
 }
 
@@ -50,29 +37,68 @@ SphereView view_of(Spheres& s) {
   return {s.place.data(), s.velocity.data(), s.ahead.data(), s.spin.data(), s.force.data(), s.torque.data()};
 }
 
-void kick_drift(const Model& model, State& state) {
-  Spheres& s = state.spheres;
+PACKBED_WIDE bool kick_and_drift(const Model& model, Spheres& s, std::size_t begin, std::size_t end) {
   const double step = model.step, half = 0.5 * step;
   const Four gravity = four_of(model.gravity);
+  bool left_margin = false;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Four inverse_mass = spread_w(s.velocity[i]);
+    const Four kick = half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
+    const Four velocity = four(s.velocity[i]) + kick;
+    four(s.velocity[i]) = velocity;
+    four(s.ahead[i]) = velocity + kick;
+    four(s.place[i]) += step * without_w(s.velocity[i]);
+    if (model.turns) four(s.spin[i]) += half * spread_w(s.spin[i]) * four(s.torque[i]);
+    left_margin |= way_from(s.place[i], s.listed_at[i]) > s.listed_at[i].w;
+  }
+  return left_margin;
+}
+
+PACKBED_WIDE void gather_and_kick(const Model& model, State& state, std::size_t begin, std::size_t end) {
+  Spheres& s = state.spheres;
+  const double half = 0.5 * model.step;
+  const Four gravity = four_of(model.gravity);
+  for (std::size_t i = begin; i < end; ++i) {
+    gather_slots(state, i, s.force);
+    const Four inverse_mass = spread_w(s.velocity[i]);
+    four(s.velocity[i]) += half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
+    if (!model.turns) continue;
+    gather_slots(state, i, s.torque);
+    four(s.spin[i]) += half * spread_w(s.spin[i]) * four(s.torque[i]);
+  }
+}
+
+void kick_drift(const Model& model, State& state) {
   std::atomic<bool> left_margin{false};
-  for_each_chunk(s.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    bool left = false;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Four inverse_mass = spread_w(four(s.velocity[i]));
-      Four kick = half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
-      four(s.velocity[i]) += kick;
-      four(s.ahead[i]) = four(s.velocity[i]) + kick;
-      four(s.place[i]) += step * Four{s.velocity[i].x, s.velocity[i].y, s.velocity[i].z, 0.0};
-      if (model.turns) four(s.spin[i]) += half * spread_w(four(s.spin[i])) * four(s.torque[i]);
-      const Four way = four(s.place[i]) - four(s.listed_at[i]);
-      left |= way[0] * way[0] + way[1] * way[1] + way[2] * way[2] > s.listed_at[i].w;
-    }
-    if (left) left_margin.store(true, std::memory_order_relaxed);
+  for_each_chunk(state.spheres.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    if (kick_and_drift(model, state.spheres, begin, end)) left_margin.store(true, std::memory_order_relaxed);
   });
-  ++state.steps;
-  state.time += step;
-  state.ledger.listed += static_cast<double>(state.pairs.pair.size());
-  if (left_margin) state.search_due = 1;
+  end_of_drift(model, state, left_margin);
+}
+
+std::vector<Quad> sides_of(const Model& model, const State& state, std::size_t from, std::size_t to) {
+  const Spheres& s = state.spheres;
+  std::vector<Quad> sides;
+  for (std::size_t p = from; p < to; ++p) {
+    const std::uint32_t i = state.walls.pair[p].a;
+    const Quad& x = s.place[i];
+    Vec3 normal;
+    double distance = 0;
+    model.solid->side(s.kind[i], s.scale[i], x.w, Vec3(x.x, x.y, x.z), normal, distance);
+    sides.push_back({normal.x(), normal.y(), normal.z(), distance});
+  }
+  return sides;
+}
+
+void touch_container_walls(const Model& model, State& state, const SphereView& view, double step,
+                           std::size_t from, std::size_t to, SphereTally& tally, SphereContact* contacts) {
+  const auto pairs = std::span<const SphereWallPair>(state.walls.pair).subspan(from, to - from);
+  const SphereMemory memory = state.walls.memory_from(from);
+  if (model.solid)
+    touch_given_walls(model.wall_law, view, step, sides_of(model, state, from, to), pairs, memory, tally,
+                      contacts);
+  else
+    touch_walls(model.wall_law, view, step, model.walls, pairs, memory, tally, contacts);
 }
 
 void touch(const Model& model, State& state) {
@@ -92,26 +118,14 @@ void touch(const Model& model, State& state) {
     }
     touch_spheres(model.pellet_law, view, model.step, pairs_of(state.pairs, begin, end),
                   state.pairs.memory_from(state.pairs.first[begin]), state.tally[c]);
-    touch_walls(model.wall_law, view, model.step, model.walls, pairs_of(state.walls, begin, end),
-                state.walls.memory_from(state.walls.first[begin]), state.tally[c]);
+    touch_container_walls(model, state, view, model.step, state.walls.first[begin], state.walls.first[end],
+                          state.tally[c]);
   });
 }
 
 void gather_kick(const Model& model, State& state) {
-  Spheres& s = state.spheres;
-  const double half = 0.5 * model.step;
-  const Four gravity = four_of(model.gravity);
-  for_each_chunk(s.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::uint32_t k = state.slot_first[i]; k < state.slot_first[i + 1]; ++k) {
-        four(s.force[i]) += four(s.force[state.slot[k]]);
-        if (model.turns) four(s.torque[i]) += four(s.torque[state.slot[k]]);
-      }
-      const Four inverse_mass = spread_w(four(s.velocity[i]));
-      four(s.velocity[i]) +=
-          half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
-      if (model.turns) four(s.spin[i]) += half * spread_w(four(s.spin[i])) * four(s.torque[i]);
-    }
+  for_each_chunk(state.spheres.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    gather_and_kick(model, state, begin, end);
   });
 }
 

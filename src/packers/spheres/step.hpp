@@ -13,7 +13,7 @@ inline constexpr std::array<std::string_view, kPhases> kPhaseName = {"feed",  "f
                                                                      "touch", "gather_kick", "rest"};
 using PhaseTimes = std::array<double, kPhases>;  // wall-clock [s]
 
-/// Velocity Verlet with contacts; everything else only when it is due.
+/// Velocity Verlet, or Gear's scheme, with contacts; everything else only when it is due.
 void step(const Model& model, State& state, Feeder& feeder, PhaseTimes& times);
 
 // The phases, in order. Each returns at once when it has nothing to do.
@@ -22,10 +22,21 @@ void find_pairs(const Model& model, State& state);
 void kick_drift(const Model& model, State& state);
 void touch(const Model& model, State& state);
 void gather_kick(const Model& model, State& state);
+// In place of the two, with Gear's scheme.
+void predict(const Model& model, State& state);
+void correct(const Model& model, State& state);
 void rest(const Model& model, State& state, const Feeder& feeder);
 
+/// Gives spheres that have entered since the last call their higher derivatives: none but gravity.
+void begin_gear(const Model& model, State& state);
 /// Adds what the chunks have counted since the last search to the ledger, in order.
 void settle_accounts(State& state);
 SphereView view_of(Spheres& spheres);
+/// The pairs with walls from number `from` up to `to`; see touch_walls for the rest.
+void touch_container_walls(const Model& model, State& state, const SphereView& view, double step,
+                           std::size_t from, std::size_t to, SphereTally& tally,
+                           SphereContact* contacts = nullptr);
+/// Walls beside the spheres of these pairs as touch_given_walls wants them, of a mesh container.
+std::vector<Quad> sides_of(const Model& model, const State& state, std::size_t from, std::size_t to);
 
 }  // namespace packbed::spheres

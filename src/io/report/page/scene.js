@@ -1,7 +1,7 @@
 // three.js: one instanced mesh for the outside of the pellets of a shape and one for their inside. Where the cut opens a
 // pellet one sees its inside, painted flat, which looks like the cut face of a solid.
 import {
-  AmbientLight, BackSide, BufferAttribute, BufferGeometry, CylinderGeometry, Color, DirectionalLight, DoubleSide, FrontSide,
+  AmbientLight, BackSide, BoxGeometry, BufferAttribute, BufferGeometry, CylinderGeometry, Color, DirectionalLight, DoubleSide, FrontSide,
   HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineLoop, Matrix4, Mesh, MeshBasicMaterial,
   MeshLambertMaterial, PerspectiveCamera, Plane, Quaternion, Scene, SphereGeometry, Vector3, WebGLRenderer,
 } from 'three';
@@ -92,7 +92,12 @@ function ring(radius, z, material) {
   return new LineLoop(new BufferGeometry().setFromPoints(points), material);
 }
 
-/** The container as a ghost: its far wall faintly, a tube's rims as lines. */
+function square(x, y, z, material) {
+  const points = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([i, j]) => new Vector3(i * x / 2, j * y / 2, z));
+  return new LineLoop(new BufferGeometry().setFromPoints(points), material);
+}
+
+/** The container as a ghost: its far wall faintly, rims of a tube or box as lines. */
 function ghost(data, top) {
   const { container } = data;
   const wall = new MeshBasicMaterial({ transparent: true, opacity: 0.13, side: BackSide, depthWrite: false });
@@ -103,6 +108,11 @@ function ghost(data, top) {
     const h = Math.min(UNIT * container.height_m || top, 1.12 * top);
     parts.push(new Mesh(new CylinderGeometry(r, r, h, 96, 1, true).rotateX(Math.PI / 2).translate(0, 0, h / 2), wall));
     parts.push(ring(r, 0, line), ring(r, h, line));
+  } else if (container.kind === 'box') {
+    const [x, y] = [UNIT * container.width_m, UNIT * container.depth_m];
+    const h = Math.min(UNIT * container.height_m || top, 1.12 * top);
+    parts.push(new Mesh(new BoxGeometry(x, y, h).translate(0, 0, h / 2), wall));
+    parts.push(square(x, y, 0, line), square(x, y, h, line));
   } else if (container.vertices && container.vertices.length > 0) {
     wall.side = DoubleSide;
     wall.opacity = 0.1;

@@ -1,0 +1,59 @@
+#pragma once
+// What the loops over spheres share.
+#include <algorithm>
+
+#include "math/threads.hpp"
+#include "packers/spheres/model.hpp"
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are only passed between functions that are inlined
+#endif
+
+namespace packbed::spheres {
+
+/// Calls body(chunk, begin, end) for each chunk of spheres.
+template <class Body>
+void for_each_chunk(std::size_t spheres, const Body& body) {
+  parallel_for(chunks_of(spheres), 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t c = from; c < to; ++c) body(c, c * kChunk, std::min(spheres, (c + 1) * kChunk));
+  });
+}
+
+PACKBED_INLINE Four four_of(const Vec3& v) {
+  return Four{v.x(), v.y(), v.z(), 0.0};
+}
+PACKBED_INLINE Four spread_w(const Quad& q) {
+  return four(q.w);
+}
+PACKBED_INLINE Four without_w(const Quad& q) {
+  return four(q) * Four{1.0, 1.0, 1.0, 0.0};
+}
+PACKBED_INLINE Four only_w(const Quad& q) {
+  return four(q) * Four{0.0, 0.0, 0.0, 1.0};
+}
+/// Square of the distance of two places.
+PACKBED_INLINE double way_from(const Quad& a, const Quad& b) {
+  const Four way = four(a) - four(b), squares = way * way;
+  return squares[0] + squares[1] + squares[2];
+}
+
+/// Adds what other chunks have left for sphere i.
+PACKBED_INLINE void gather_slots(const State& state, std::size_t i, std::vector<Quad>& force) {
+  for (std::uint32_t k = state.slot_first[i]; k < state.slot_first[i + 1]; ++k)
+    four(force[i]) += four(force[state.slot[k]]);
+}
+
+/// The step has moved the spheres; `left_margin`: one of them farther than its lists allow.
+inline void end_of_drift(const Model& model, State& state, bool left_margin) {
+  ++state.steps;
+  state.time += model.step;
+  state.ledger.listed += static_cast<double>(state.pairs.pair.size());
+  if (left_margin) state.search_due = 1;
+}
+
+}  // namespace packbed::spheres
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
