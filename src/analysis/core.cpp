@@ -62,13 +62,15 @@ bool CoreRegion::holds(const Vec3& x) const {
 }
 
 std::optional<CoreRegion> core_region(const Container& container, double top, double margin) {
-  const bool round = container.kind == ContainerKind::tube || container.kind == ContainerKind::mesh;
-  if (!round || !(container.radius > 0) || container.core_radius > 0) return {};
+  if (!has_sides(container.kind) || !(container.radius > 0) || container.core_radius > 0) return {};
   CoreRegion core;
   core.margin = margin;
   core.from = margin;
   core.to = top - margin;
-  core.radius = container.radius - margin;
+  if (container.kind == ContainerKind::box)
+    core.half = (0.5 * Vec2(container.width, container.depth) - Vec2::Constant(margin)).cwiseMax(0.0);
+  else
+    core.radius = container.radius - margin;
   if (!(core.radius > 0)) core.radius = 0;  // and half is 0 too: a core without volume
   return core;
 }

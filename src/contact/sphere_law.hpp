@@ -39,7 +39,7 @@ struct SphereLaw {
 
 /// A spring that four contacts remember: its stretch and the stiffness that it had; half their product with
 /// the stretch is the energy in it. In memory one Quad a contact, w the stiffness.
-struct FourSprings {
+struct Springs {
   FourVec stretch;
   Four stiffness{};
 };
@@ -51,8 +51,7 @@ struct SphereTouch {
   Four delta{};                // overlap [m]
   Four radius{}, mass{};       // R* = Ra Rb / (Ra + Rb) [m], m* [kg]
   Four thickness{};            // of the smaller one, what depths are measured by [m]
-  FourVec ahead;               // velocity of the centre of a against that of b at the end of the step [m/s]
-  FourVec mid;                 // ... in its middle
+  FourVec mid;                 // velocity of the centre of a against that of b, mid step [m/s]
   FourVec turning;             // sum of arm times spin of both, mid step [m/s]
   FourVec rolling;             // spin of a against b, mid step [rad/s]
 };
@@ -89,7 +88,7 @@ inline double elastic_share(const SphereLaw& law) {
 }
 
 /// Energy in a spring [J].
-PACKBED_INLINE Four stored_in(const FourSprings& s) {
+PACKBED_INLINE Four stored_in(const Springs& s) {
   return 0.5 * s.stiffness * dot(s.stretch, s.stretch);
 }
 
@@ -97,8 +96,8 @@ PACKBED_INLINE Four stored_in(const FourSprings& s) {
 /// the force that it exerts and adds what was lost. The stretch grows with `rate`, which is in the tangent
 /// plane of the middle of the step.
 PACKBED_INLINE FourVec stretch_on(const SphereTouch& t, double step, const FourVec& rate,
-                                  const Four& stiffness, const Four& dashpot, const Four& limit,
-                                  FourSprings& s, SphereTally& tally) {
+                                  const Four& stiffness, const Four& dashpot, const Four& limit, Springs& s,
+                                  SphereTally& tally) {
   const Four none{};
   // mirrored twice, the stretch has turned with the normal and kept its length
   FourVec before = s.stretch - (2.0 * dot(s.stretch, t.normal_mid)) * t.normal_mid;
@@ -122,9 +121,17 @@ PACKBED_INLINE FourVec stretch_on(const SphereTouch& t, double step, const FourV
   return choose(t.touches, force, FourVec{});
 }
 
+/// What the contacts remember from step to step.
+struct SphereState {
+  FourFlags touched{};  // at the end of the last step; else nothing but the springs counts
+  Four drag{};          // force of the dashpot then [N]
+  Four closing{};       // speed of approach in its middle [m/s]
+  Springs slip, roll;
+};
+
 /// Advances the springs by one step and gives the forces; zero where nothing touches.
-PACKBED_INLINE SphereForce resolve(const SphereLaw& law, const SphereTouch& t, double step, FourSprings& slip,
-                                   FourSprings& roll, Four& drag, SphereTally& tally) {
+PACKBED_INLINE SphereForce resolve(const SphereLaw& law, const SphereTouch& t, double step,
+                                   SphereState& state, SphereTally& tally) {
   const Four none{};
   const Four delta = t.touches ? t.delta : none;
   const SphereElastic e = elastic_of(law, t.radius, delta);
@@ -135,18 +142,22 @@ PACKBED_INLINE SphereForce resolve(const SphereLaw& law, const SphereTouch& t, d
   }
   const Four tangential_dashpot = law.tangential_damping * dashpot + law.tangential_dissipation * t.mass;
   dashpot += law.dissipation * t.mass;
-  const Four push = t.touches ? larger(none, e.force - dashpot * dot(t.ahead, t.normal)) : none;
+  // at the end of the step, by the acceleration of the last one
+  const Four closing = -dot(t.mid, t.normal);
+  const Four at_end = state.touched ? 1.5 * closing - 0.5 * state.closing : closing;
+  const Four push = t.touches ? larger(none, e.force + dashpot * at_end) : none;
   // the mean of the dashpot's force at both ends of the step, along the way that the integrator goes between
-  const Four drag_before = drag;
-  drag = t.touches ? push - e.force : none;
-  const Four opening = step * dot(t.mid, t.normal);
-  tally.damped -= t.touches ? 0.5 * (drag + drag_before) * opening : none;
+  const Four drag_before = state.touched ? state.drag : none;
+  state.drag = t.touches ? push - e.force : none;
+  tally.damped += t.touches ? (0.5 * step) * (state.drag + drag_before) * closing : none;
   const FourFlags parts = ~t.touches & (drag_before < 0.0);
   if (any(parts)) {  // held back until the end, the spring has given its energy to the dashpot
-    const Four last = parts ? larger(none, t.delta + opening) : none;
+    const Four last = parts ? larger(none, t.delta - step * closing) : none;
     const Four force = elastic_of(law, t.radius, last).force;
-    tally.damped -= parts ? smaller(force, -drag_before) * (-elastic_share(law)) * last : none;
+    tally.damped += parts ? smaller(force, -drag_before) * elastic_share(law) * last : none;
   }
+  state.closing = closing;
+  state.touched = t.touches;
 
   SphereForce out;
   out.force = push * t.normal;
@@ -155,14 +166,14 @@ PACKBED_INLINE SphereForce resolve(const SphereLaw& law, const SphereTouch& t, d
     slide = slide - dot(slide, t.normal_mid) * t.normal_mid;
     const Four stiffness = law.tangential_share * e.slope;
     const FourVec friction =
-        stretch_on(t, step, slide, stiffness, tangential_dashpot, law.friction * push, slip, tally);
+        stretch_on(t, step, slide, stiffness, tangential_dashpot, law.friction * push, state.slip, tally);
     out.force = out.force + friction;
     out.moment = cross(t.normal, friction);
     if (law.rolling_friction > 0) {
       const FourVec rate = t.rolling - dot(t.rolling, t.normal_mid) * t.normal_mid;
       const Four arm2 = t.radius * t.radius;
       out.rolling = stretch_on(t, step, rate, stiffness * arm2, tangential_dashpot * arm2,
-                               law.rolling_friction * t.radius * push, roll, tally);
+                               law.rolling_friction * t.radius * push, state.roll, tally);
     }
   }
   if (any(delta > tally.deepest * t.thickness)) tally.deepest = larger(tally.deepest, delta / t.thickness);

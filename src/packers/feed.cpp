@@ -177,13 +177,19 @@ struct Feeder::Plan {
       throw InputError("feed.spacing", millimetres(spacing),
                        fmt::format("at least {}", millimetres(2 * radius)),
                        "the largest pellets would overlap: leave it out for the closest lattice");
-    const int across = static_cast<int>(std::floor(2 * circle / spacing * (1 + 1e-9))) + 1;
-    const auto at = [&](int i) { return (i - 0.5 * (across - 1)) * spacing; };
+    const Vec2 half = rectangle();
+    const auto sites_over = [&](double width) {
+      return static_cast<int>(std::floor(2 * width / spacing * (1 + 1e-9))) + 1;
+    };
+    const auto at = [&](int i, int of) { return (i - 0.5 * (of - 1)) * spacing; };
+    const int across = sites_over(half.x()), along = sites_over(half.y());
     std::vector<Vec2> sites;
-    for (int j = 0; j < across; ++j)
-      for (int i = 0; i < across; ++i)
-        if (in_circle({at(i), at(j)}) && room.holds_sphere({at(i), at(j), scene.feed.drop_height}, radius))
-          sites.emplace_back(at(i), at(j));
+    for (int j = 0; j < along; ++j)
+      for (int i = 0; i < across; ++i) {
+        const Vec2 site(at(i, across), at(j, along));
+        if (may_enter(site) && room.holds_sphere({site.x(), site.y(), scene.feed.drop_height}, radius))
+          sites.push_back(site);
+      }
     if (sites.empty()) throw InputError("feed.spacing", millimetres(spacing), "room for one site in a plane");
     return sites;
   }
@@ -193,21 +199,35 @@ struct Feeder::Plan {
   }
   std::size_t last_level(std::size_t count) const { return (count - 1) / plane.size(); }
 
-  bool in_circle(const Vec2& site) const { return site.norm() <= circle * (1 + 1e-9); }
+  /// A box is fed over all of its section, unless the case gives a circle.
+  bool feeds_rectangle() const {
+    return scene.container.kind == ContainerKind::box && !(scene.feed.radius > 0);
+  }
+  /// Half widths of what holds all centres.
+  Vec2 rectangle() const {
+    if (!feeds_rectangle()) return Vec2::Constant(circle);
+    return 0.5 * Vec2(scene.container.width, scene.container.depth) - Vec2::Constant(radius);
+  }
+  bool may_enter(const Vec2& site) const { return feeds_rectangle() || site.norm() <= circle * (1 + 1e-9); }
 
   /// A mesh container has to leave room somewhere at a fixed drop height.
   void check_wall() const {
     if (scene.container.kind != ContainerKind::mesh || scene.feed.above_bed) return;
     Random random(scene.seed, Stream::feed_position, 0xffffffff);
     for (int draw = 0; draw < kDraws; ++draw)
-      if (room.holds_sphere(on_disc(random, scene.feed.drop_height), radius)) return;
+      if (room.holds_sphere(at_random(random, scene.feed.drop_height), radius)) return;
     throw InputError("feed.drop_height", millimetres(scene.feed.drop_height),
                      fmt::format("a height at which a sphere of {} fits between the container's walls",
                                  millimetres(2 * radius)),
                      "change the height, or give feed.radius");
   }
 
-  Vec3 on_disc(Random& random, double height) const {
+  Vec3 at_random(Random& random, double height) const {
+    if (feeds_rectangle()) {
+      const Vec2 half = rectangle();
+      const double x = random.uniform(-half.x(), half.x()), y = random.uniform(-half.y(), half.y());
+      return {x, y, height};
+    }
     const double r = circle * std::sqrt(random.uniform()), angle = random.uniform(0, 2 * kPi);
     return {r * std::cos(angle), r * std::sin(angle), height};
   }
@@ -383,7 +403,7 @@ std::vector<Pellet> Feeder::enter_handful(std::span<const Pellet> near, double h
                   static_cast<std::uint32_t>(state_.attempt));
     bool free = false;
     for (int draw = 0; draw < kDraws && !free; ++draw) {
-      pellet.pose.position = plan_->on_disc(random, height);
+      pellet.pose.position = plan_->at_random(random, height);
       free = plan_->free(pellet, near, handful);
     }
     if (!free) break;

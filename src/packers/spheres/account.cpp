@@ -19,16 +19,14 @@ struct Contacts {
 };
 Contacts contacts_of(const Model& model, State& state) {
   Spheres& s = state.spheres;
-  SphereView view = view_of(s);
-  view.ahead = view.velocity;  // both are those of the end of the step now
-  Contacts out{std::vector<SphereContact>(state.pairs.pair.size()),
-               std::vector<SphereContact>(state.walls.pair.size()),
-               {}};
+  const SphereView view = view_of(s);  // velocities are those of the end of the step now
+  Contacts out{
+      std::vector<SphereContact>(state.pairs.lanes()), std::vector<SphereContact>(state.walls.lanes()), {}};
   SphereTally unused;
-  touch_spheres(model.pellet_law, view, 0.0, state.pairs.pair, state.pairs.memory_from(0), unused,
+  touch_spheres(model.pellet_law, view, 0.0, state.pairs.block, state.pairs.memory_from(0), unused,
                 out.pairs.data());
-  touch_container_walls(model, state, view, 0.0, 0, out.walls.size(), unused, out.walls.data());
-  if (model.solid) out.sides = sides_of(model, state, 0, out.walls.size());
+  touch_container_walls(model, state, view, 0.0, 0, state.walls.block.size(), unused, out.walls.data());
+  if (model.solid) out.sides = sides_of(model, state, 0, state.walls.block.size());
   return out;
 }
 
@@ -63,7 +61,7 @@ Energy books_of(const Model& model, const State& state, const Contacts& contacts
 void audit_walls(RunRecord& record, const Model& model, const State& state, const Contacts& contacts) {
   double base = 0, side = 0, weight = 0;
   for (std::size_t p = 0; p < contacts.walls.size(); ++p)
-    (state.walls.pair[p].wall == 0 ? base : side) += model.up.dot(vec(contacts.walls[p].force));
+    (state.walls.b(p) == 0 ? base : side) += model.up.dot(vec(contacts.walls[p].force));
   for (const Quad& v : state.spheres.velocity)
     if (v.w > 0) weight += model.gravity.norm() / v.w;
   audit_wall_forces(record, base, side, weight, model.container);
@@ -96,7 +94,7 @@ PackedBed bed_of(const Scene& scene, const Model& model, State& state) {
   for (std::size_t p = 0; p < contacts.pairs.size(); ++p) {
     const SphereContact& c = contacts.pairs[p];
     if (!(c.force.w > 0)) continue;
-    const auto [a, b, to] = state.pairs.pair[p];
+    const std::uint32_t a = state.pairs.a(p), b = state.pairs.b(p);
     const Vec3 xa = vec(s.place[a]), xb = vec(s.place[b]), normal = (xa - xb).normalized();
     const Vec3 point = xa - (s.place[a].w - 0.5 * c.force.w) * normal, force = vec(c.force);
     const bool ascending = s.id[a] < s.id[b];
@@ -106,7 +104,7 @@ PackedBed bed_of(const Scene& scene, const Model& model, State& state) {
   for (std::size_t p = 0; p < contacts.walls.size(); ++p) {
     const SphereContact& c = contacts.walls[p];
     if (!(c.force.w > 0)) continue;
-    const auto [a, w] = state.walls.pair[p];
+    const std::uint32_t a = state.walls.a(p), w = state.walls.b(p);
     const Vec3 x = vec(s.place[a]), flat = vec(model.solid ? contacts.sides[p] : model.walls[w]);
     const Vec3 normal = flat.squaredNorm() > 0.5 ? flat : Vec3(-x.x(), -x.y(), 0).normalized();
     bed.contacts.push_back(

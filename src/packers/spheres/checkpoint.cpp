@@ -9,7 +9,7 @@ constexpr std::uint64_t kFormat = 0x706b6264'53000001;  // changes with any chan
 
 template <class Archive, class L>
 void visit_list(Archive& io, L& list) {
-  io(list.pair), io(list.first), io(list.slip), io(list.roll), io(list.drag);
+  io(list.block), io(list.first), io(list.slip), io(list.roll), io(list.dash);
 }
 
 /// Names every member once, for writing and for reading.
@@ -17,13 +17,13 @@ template <class Archive, class S>
 void visit(Archive& io, S& s) {
   io(s.time), io(s.steps);
   auto& b = s.spheres;
-  io(b.id), io(b.kind), io(b.scale), io(b.place), io(b.velocity), io(b.spin), io(b.ahead), io(b.force),
-      io(b.torque), io(b.listed_at);
+  io(b.id), io(b.kind), io(b.scale), io(b.place), io(b.velocity), io(b.spin), io(b.force), io(b.twist),
+      io(b.listed_at);
   for (auto& of : s.gear.position) io(of);
   for (auto& of : s.gear.spin) io(of);
-  io(s.gear.spin_ahead);
+  io(s.gear.ahead), io(s.gear.spin_ahead);
   visit_list(io, s.pairs), visit_list(io, s.walls);
-  io(s.slot), io(s.slot_first), io(s.tally), io(s.search_due), io(s.searches);
+  io(s.slot), io(s.slot_first), io(s.first_slot), io(s.tally), io(s.search_due), io(s.searches);
   visit_rest(io, s.rest);
   io(s.waited), io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.ledger);
 }

@@ -38,6 +38,11 @@ PACKBED_INLINE double way_from(const Quad& a, const Quad& b) {
   return squares[0] + squares[1] + squares[2];
 }
 
+/// Rate of the spin of sphere i [rad/s2].
+PACKBED_INLINE Four turn_of(const Spheres& s, std::size_t i) {
+  return four(-s.place[i].w * s.spin[i].w) * four(s.twist[i]);
+}
+
 /// Adds what other chunks have left for sphere i.
 PACKBED_INLINE void gather_slots(const State& state, std::size_t i, std::vector<Quad>& force) {
   for (std::uint32_t k = state.slot_first[i]; k < state.slot_first[i + 1]; ++k)
@@ -48,7 +53,7 @@ PACKBED_INLINE void gather_slots(const State& state, std::size_t i, std::vector<
 inline void end_of_drift(const Model& model, State& state, bool left_margin) {
   ++state.steps;
   state.time += model.step;
-  state.ledger.listed += static_cast<double>(state.pairs.pair.size());
+  state.ledger.listed += static_cast<double>(state.pairs.lanes());
   if (left_margin) state.search_due = 1;
 }
 

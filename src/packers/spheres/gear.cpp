@@ -33,6 +33,7 @@ void begin_gear(const Model& model, State& state) {
     for (std::vector<Quad>& of : state.gear.position) of.push_back({});
     state.gear.position[0].back() = {bend.x(), bend.y(), bend.z(), 0};
     for (std::vector<Quad>& of : state.gear.spin) of.push_back({});
+    state.gear.ahead.push_back({});
     state.gear.spin_ahead.push_back(state.spheres.spin[i]);
   }
 }
@@ -50,7 +51,7 @@ void predict(const Model& model, State& state) {
       const Four x5 = four(g.position[3][i]);
       const Four mid = x1 + x2 + 0.75 * x3 + 0.5 * x4 + 0.3125 * x5;
       four(s.place[i]) += x1 + x2 + x3 + x4 + x5;
-      four(s.ahead[i]) = (1.0 / step) * (x1 + 2.0 * x2 + 3.0 * x3 + 4.0 * x4 + 5.0 * x5);
+      four(g.ahead[i]) = (1.0 / step) * (x1 + 2.0 * x2 + 3.0 * x3 + 4.0 * x4 + 5.0 * x5);
       x2 += 3.0 * x3 + 6.0 * x4 + 10.0 * x5;
       x3 += 4.0 * x4 + 10.0 * x5;
       x4 += 5.0 * x5;
@@ -78,15 +79,15 @@ void correct(const Model& model, State& state) {
   for_each_chunk(s.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       gather_slots(state, i, s.force);
-      if (model.turns) gather_slots(state, i, s.torque);
+      if (model.turns) gather_slots(state, i, s.twist);
       const Four inverse_mass = spread_w(s.velocity[i]);
       const Four acceleration = inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{});
       const Four change = 0.5 * step * step * acceleration - four(g.position[0][i]);
       four(s.place[i]) += kPosition[0] * change;
-      four(s.velocity[i]) = four(s.ahead[i]) + (kPosition[1] / step) * change + only_w(s.velocity[i]);
+      four(s.velocity[i]) = four(g.ahead[i]) + (kPosition[1] / step) * change + only_w(s.velocity[i]);
       for (std::size_t k = 0; k < 4; ++k) four(g.position[k][i]) += kPosition[k + 2] * change;
       if (!model.turns) continue;
-      const Four turn = step * spread_w(s.spin[i]) * four(s.torque[i]) - four(g.spin[0][i]);
+      const Four turn = step * turn_of(s, i) - four(g.spin[0][i]);
       four(s.spin[i]) = four(g.spin_ahead[i]) + kSpin[0] * turn;
       for (std::size_t k = 0; k < 4; ++k) four(g.spin[k][i]) += kSpin[k + 1] * turn;
     }

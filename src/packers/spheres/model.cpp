@@ -139,6 +139,7 @@ Model make_model(const Scene& scene) {
   model.kinds = make_kinds(scene);
   model.container = scene.container;
   model.walls = make_walls(scene);
+  model.walls.push_back(kNoWall);
   model.gravity = scene.gravity;
   if (scene.gravity.norm() > 0) model.up = -scene.gravity.normalized();
   model.pellet_law = find_law(scene, scene.pellet_contact, model.kinds);

@@ -45,12 +45,12 @@ Model make_model(const Scene& scene);
 struct Spheres {
   std::vector<std::uint32_t> id, kind;
   std::vector<double> scale;
-  std::vector<Quad> place;          // centre, radius [m]
-  std::vector<Quad> velocity;       // [m/s], inverse mass [1/kg] (0: fixed)
-  std::vector<Quad> spin;           // [rad/s], inverse moment of inertia [1/(kg m2)]
-  std::vector<Quad> ahead;          // velocity at the end of the step by the last known forces
-  std::vector<Quad> force, torque;  // [N], [N m]; entries beyond the spheres are slots
-  std::vector<Quad> listed_at;      // centre at the last search, square of the way that it may go [m], [m2]
+  std::vector<Quad> place;     // centre, radius [m]
+  std::vector<Quad> velocity;  // [m/s], inverse mass [1/kg] (0: fixed)
+  std::vector<Quad> spin;      // [rad/s], inverse moment of inertia [1/(kg m2)]
+  std::vector<Quad> force,
+      twist;                    // [N], torque over minus the radius [N]; entries beyond the spheres are slots
+  std::vector<Quad> listed_at;  // centre at the last search, square of the way that it may go [m], [m2]
 
   std::size_t size() const { return id.size(); }
 };
@@ -59,7 +59,7 @@ struct Spheres {
 struct Gear {
   std::array<std::vector<Quad>, 4> position;  // n = 2 to 5 [m]
   std::array<std::vector<Quad>, 4> spin;      // n = 1 to 4 [rad/s]
-  std::vector<Quad> spin_ahead;               // predicted [rad/s]
+  std::vector<Quad> ahead, spin_ahead;        // predicted velocity [m/s], spin [rad/s]
 };
 
 inline constexpr std::size_t kChunk = 512;  // spheres
@@ -67,17 +67,20 @@ inline std::size_t chunks_of(std::size_t spheres) {
   return (spheres + kChunk - 1) / kChunk;
 }
 
-/// Pairs in the order of the spheres that found them: those of sphere i are first[i] to first[i + 1].
-template <class Pair>
+/// Pairs in the order of the spheres that found them: those of sphere i are numbers first[i] to first[i + 1].
+/// A chunk begins with a new block of four; lanes that are left over at its end are of no use.
 struct List {
-  std::vector<Pair> pair;
+  std::vector<PairBlock> block;
   std::vector<std::uint32_t> first;
-  std::vector<Quad> slip, roll;  // see SphereMemory; empty without friction, without rolling friction
-  std::vector<double> drag;
+  std::vector<SpringBlock> slip, roll;  // empty without friction, without rolling friction
+  std::vector<DashBlock> dash;
 
-  SphereMemory memory_from(std::size_t pair_) {
-    return {slip.empty() ? nullptr : slip.data() + pair_, roll.empty() ? nullptr : roll.data() + pair_,
-            drag.data() + pair_};
+  std::uint32_t a(std::size_t pair) const { return block[pair / 4].a[pair % 4]; }
+  std::uint32_t b(std::size_t pair) const { return block[pair / 4].b[pair % 4]; }
+  std::size_t lanes() const { return 4 * block.size(); }
+  SphereMemory memory_from(std::size_t block_) {
+    return {slip.empty() ? nullptr : slip.data() + block_, roll.empty() ? nullptr : roll.data() + block_,
+            dash.data() + block_};
   }
 };
 
@@ -86,11 +89,11 @@ struct State {
   std::int64_t steps = 0;
   Spheres spheres;
   Gear gear;
-  List<SpherePair> pairs;
-  List<SphereWallPair> walls;
-  // slots, entries of force and torque beyond the spheres: those of sphere i are slot[slot_first[i]] and on
+  List pairs, walls;  // of two spheres; of a sphere and a wall of the model's list
+  // slots, entries of force and twist beyond the spheres: those of sphere i are slot[slot_first[i]] and on
   std::vector<std::uint32_t> slot, slot_first;
-  std::vector<SphereTally> tally;  // one a chunk, since the last search
+  std::vector<std::uint32_t> first_slot;  // of each chunk, which alone writes them
+  std::vector<SphereTally> tally;         // one a chunk, since the last search
   std::uint8_t search_due = 1;
   std::int64_t searches = 0;
   RestWatch rest;  // by pellet id

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "dynamics/level_grid.hpp"
 #include "math/threads.hpp"
+#include "packers/spheres/chunks.hpp"
 #include "packers/spheres/step.hpp"
 
 namespace packbed::spheres {
@@ -36,7 +38,6 @@ void enter(const Model& model, State& state, const Pellet& pellet) {
   s.place.push_back(quad(pellet.pose.position, radius));
   s.velocity.push_back(quad(pellet.velocity, pellet.fixed ? 0.0 : 1.0 / mass));
   s.spin.push_back(quad(pellet.spin, pellet.fixed ? 0.0 : 1.0 / inertia));
-  s.ahead.push_back(quad(pellet.velocity, 0));
   s.listed_at.push_back(quad(pellet.pose.position, 0));
   state.rest.anchor.push_back(pellet.pose.position);
   if (pellet.fixed) return;
@@ -86,7 +87,7 @@ Before sort_memory(State& state) {
   Spheres& s = state.spheres;
   const std::size_t n = s.size();
   const std::size_t listed = state.slot_first.empty() ? 0 : state.slot_first.size() - 1;
-  for (std::vector<Quad>* of : {&s.force, &s.torque}) {
+  for (std::vector<Quad>* of : {&s.force, &s.twist}) {
     of->resize(listed);  // the slots go; nothing acts yet on who has entered
     of->resize(n);
   }
@@ -97,88 +98,101 @@ Before sort_memory(State& state) {
   }
   Before order = curve_order(s);
   reorder(s.id, order), reorder(s.kind, order), reorder(s.scale, order);
-  reorder(s.place, order), reorder(s.velocity, order), reorder(s.spin, order), reorder(s.ahead, order);
-  reorder(s.force, order), reorder(s.torque, order), reorder(s.listed_at, order);
+  reorder(s.place, order), reorder(s.velocity, order), reorder(s.spin, order);
+  reorder(s.force, order), reorder(s.twist, order), reorder(s.listed_at, order);
   if (!state.gear.spin_ahead.empty()) {
     for (std::vector<Quad>& of : state.gear.position) reorder(of, order);
     for (std::vector<Quad>& of : state.gear.spin) reorder(of, order);
-    reorder(state.gear.spin_ahead, order);
+    reorder(state.gear.ahead, order), reorder(state.gear.spin_ahead, order);
   }
   return order;
 }
 
-/// The springs of the old list, by partner.
-template <class Pair>
-class Memory {
- public:
-  explicit Memory(List<Pair>& list) : list_(std::move(list)) {}
-
-  /// Index of the pair (a, b) as a found it, or nothing.
-  const Pair* find(std::uint32_t a, std::uint32_t b, std::size_t& index) const {
-    if (a + 1 >= list_.first.size()) return nullptr;
-    for (index = list_.first[a]; index < list_.first[a + 1]; ++index)
-      if (partner(list_.pair[index]) == b) return &list_.pair[index];
-    return nullptr;
-  }
-  const List<Pair>& list() const { return list_; }
-
- private:
-  static std::uint32_t partner(const SpherePair& p) { return p.b; }
-  static std::uint32_t partner(const SphereWallPair& p) { return p.wall; }
-  List<Pair> list_;
-};
-
-/// What pair number `old` of one list remembered, for pair `p` of another; sign -1 when a and b have changed
-/// places.
-template <class Pair>
-void hand_over(const List<Pair>& from, std::size_t old, double sign, List<Pair>& to, std::size_t p) {
-  const auto signed_ = [&](const Quad& q) { return Quad{sign * q.x, sign * q.y, sign * q.z, q.w}; };
-  to.drag[p] = from.drag[old];
-  if (!to.slip.empty()) to.slip[p] = signed_(from.slip[old]);
-  if (!to.roll.empty()) to.roll[p] = signed_(from.roll[old]);
+/// Number of the pair (a, b) as a found it; nothing when it did not.
+std::optional<std::size_t> find_pair(const List& list, std::uint32_t a, std::uint32_t b) {
+  if (a + 1 >= list.first.size()) return {};
+  for (std::size_t p = list.first[a]; p < list.first[a + 1]; ++p)
+    if (list.b(p) == b) return p;
+  return {};
 }
 
-/// Joins what the chunks have found into one list.
-template <class Pair>
-void join(const std::vector<std::vector<Pair>>& found, std::vector<std::uint32_t>& counts, const Model& model,
-          List<Pair>& list) {
-  list.first.assign(counts.size() + 1, 0);
-  for (std::size_t i = 0; i < counts.size(); ++i) list.first[i + 1] = list.first[i] + counts[i];
-  list.pair.clear();
-  list.pair.reserve(list.first.back());
-  for (const std::vector<Pair>& part : found) list.pair.insert(list.pair.end(), part.begin(), part.end());
-  list.slip.assign(model.turns ? list.pair.size() : 0, Quad{});
-  list.roll.assign(model.rolls ? list.pair.size() : 0, Quad{});
-  list.drag.assign(list.pair.size(), 0.0);
+double& lane(Quad& q, std::size_t k) {
+  return k == 0 ? q.x : k == 1 ? q.y : k == 2 ? q.z : q.w;
+}
+double lane(const Quad& q, std::size_t k) {
+  return k == 0 ? q.x : k == 1 ? q.y : k == 2 ? q.z : q.w;
+}
+void copy_spring(const SpringBlock& from, std::size_t old, double sign, SpringBlock& to, std::size_t p) {
+  for (std::size_t d = 0; d < 3; ++d) lane(to.stretch[d], p) = sign * lane(from.stretch[d], old);
+  lane(to.stiffness, p) = lane(from.stiffness, old);
+}
+
+/// What pair `old` of one list remembered, for pair `p` of another; sign -1 when a and b have changed places.
+void hand_over(const List& from, std::size_t old, double sign, List& to, std::size_t p) {
+  lane(to.dash[p / 4].drag, p % 4) = lane(from.dash[old / 4].drag, old % 4);
+  lane(to.dash[p / 4].closing, p % 4) = lane(from.dash[old / 4].closing, old % 4);
+  if (!to.slip.empty()) copy_spring(from.slip[old / 4], old % 4, sign, to.slip[p / 4], p % 4);
+  if (!to.roll.empty()) copy_spring(from.roll[old / 4], old % 4, sign, to.roll[p / 4], p % 4);
+}
+
+/// Partners that the spheres of a chunk have found, one after the other, and how many each.
+struct Found {
+  std::vector<std::uint32_t> partner, count;
+};
+
+/// The list of all chunks, with nothing to remember yet. A lane of no use names `idle`, or without one its
+/// own sphere.
+List listed(const std::vector<Found>& found, std::size_t spheres, const Model& model,
+            std::optional<std::uint32_t> idle) {
+  List list;
+  list.first.push_back(0);
+  for (std::size_t c = 0; c < found.size(); ++c) {
+    const auto begin = static_cast<std::uint32_t>(c * kChunk);
+    std::size_t k = 0, pairs = list.first.back();
+    const auto put = [&](std::uint32_t a, std::uint32_t b) {
+      if (pairs % 4 == 0) list.block.emplace_back();
+      list.block.back().a[pairs % 4] = a;
+      list.block.back().b[pairs % 4] = list.block.back().to[pairs % 4] = b;
+      ++pairs;
+    };
+    for (std::size_t i = 0; i < found[c].count.size(); ++i) {
+      const auto a = begin + static_cast<std::uint32_t>(i);
+      for (std::uint32_t n = 0; n < found[c].count[i]; ++n) put(a, found[c].partner[k++]);
+      list.first.push_back(static_cast<std::uint32_t>(pairs));
+    }
+    while (pairs % 4 != 0) put(begin, idle.value_or(begin));
+    list.first.back() = static_cast<std::uint32_t>(pairs);
+  }
+  list.first.resize(spheres + 1, list.first.back());
+  list.dash.resize(list.block.size());
+  list.slip.resize(model.turns ? list.block.size() : 0);
+  list.roll.resize(model.rolls ? list.block.size() : 0);
+  return list;
 }
 
 void list_pairs(const Model& model, State& state, const std::vector<Quad>& reach, const Before& before) {
   const Spheres& s = state.spheres;
-  const Memory<SpherePair> memory(state.pairs);
-  LevelGrid grid(reach);
-  std::vector<std::vector<SpherePair>> found(chunks_of(s.size()));
-  std::vector<std::uint32_t> counts(s.size());
-  parallel_for(found.size(), 1, [&](std::size_t from, std::size_t to) {
-    for (std::size_t c = from; c < to; ++c)
-      for (std::size_t i = c * kChunk; i < std::min(s.size(), (c + 1) * kChunk); ++i) {
-        const auto a = static_cast<std::uint32_t>(i);
-        const std::size_t had = found[c].size();
-        grid.for_each_near(a, [&](std::uint32_t b) {
-          if (s.velocity[a].w > 0 || s.velocity[b].w > 0) found[c].push_back({a, b, b});
-        });
-        counts[i] = static_cast<std::uint32_t>(found[c].size() - had);
-      }
+  const LevelGrid grid(reach);
+  std::vector<Found> found(chunks_of(s.size()));
+  for_each_chunk(s.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t had = found[c].partner.size();
+      grid.for_each_near(static_cast<std::uint32_t>(i), [&](std::uint32_t j) {
+        if (s.velocity[i].w > 0 || s.velocity[j].w > 0) found[c].partner.push_back(j);
+      });
+      found[c].count.push_back(static_cast<std::uint32_t>(found[c].partner.size() - had));
+    }
   });
-  List<SpherePair>& list = state.pairs;
-  join(found, counts, model, list);
-  parallel_for(list.pair.size(), 4096, [&](std::size_t from, std::size_t to) {
+  const List old = std::move(state.pairs);
+  List& list = state.pairs = listed(found, s.size(), model, {});
+  parallel_for(list.lanes(), 4096, [&](std::size_t from, std::size_t to) {
     for (std::size_t p = from; p < to; ++p) {
-      const std::uint32_t a = before[list.pair[p].a], b = before[list.pair[p].b];
-      std::size_t old = 0;
-      if (memory.find(a, b, old))
-        hand_over(memory.list(), old, 1.0, list, p);
-      else if (memory.find(b, a, old))
-        hand_over(memory.list(), old, -1.0, list, p);
+      const std::uint32_t a = before[list.a(p)], b = before[list.b(p)];
+      if (a == b) continue;
+      if (const auto same = find_pair(old, a, b))
+        hand_over(old, *same, 1.0, list, p);
+      else if (const auto turned_round = find_pair(old, b, a))
+        hand_over(old, *turned_round, -1.0, list, p);
     }
   });
 }
@@ -190,27 +204,25 @@ double distance_from(const SphereWall& wall, const Vec3& x) {
 
 void list_walls(const Model& model, State& state, const std::vector<Quad>& reach, const Before& before) {
   const Spheres& s = state.spheres;
-  const Memory<SphereWallPair> memory(state.walls);
-  std::vector<std::vector<SphereWallPair>> found(1);
-  std::vector<std::uint32_t> counts(s.size());
-  for (std::uint32_t i = 0; i < s.size(); ++i) {
-    if (!(s.velocity[i].w > 0)) continue;
-    const auto add = [&](std::uint32_t wall, double distance) {
-      if (distance >= reach[i].w) return;
-      found[0].push_back({i, wall});
-      ++counts[i];
-    };
-    const Vec3 x = vec(reach[i]);
-    for (std::uint32_t w = 0; w < model.walls.size(); ++w) add(w, distance_from(model.walls[w], x));
-    if (model.solid) add(0, model.solid->distance(x));
-  }
-  List<SphereWallPair>& list = state.walls;
-  join(found, counts, model, list);
-  for (std::size_t p = 0; p < list.pair.size(); ++p) {
-    std::size_t old = 0;
-    if (memory.find(before[list.pair[p].a], list.pair[p].wall, old))
-      hand_over(memory.list(), old, 1.0, list, p);
-  }
+  const auto idle = static_cast<std::uint32_t>(model.walls.size() - 1);
+  std::vector<Found> found(chunks_of(s.size()));
+  for_each_chunk(s.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 x = vec(reach[i]);
+      const std::size_t had = found[c].partner.size();
+      const auto look = [&](std::uint32_t wall, double distance) {
+        if (distance < reach[i].w && s.velocity[i].w > 0) found[c].partner.push_back(wall);
+      };
+      for (std::uint32_t w = 0; w < idle; ++w) look(w, distance_from(model.walls[w], x));
+      if (model.solid) look(0, model.solid->distance(x));
+      found[c].count.push_back(static_cast<std::uint32_t>(found[c].partner.size() - had));
+    }
+  });
+  const List old = std::move(state.walls);
+  // of a mesh container there is one wall, number 0, and any other number is none
+  List& list = state.walls = listed(found, s.size(), model, model.solid ? 1 : idle);
+  for (std::size_t p = 0; p < list.lanes(); ++p)
+    if (const auto same = find_pair(old, before[list.a(p)], list.b(p))) hand_over(old, *same, 1.0, list, p);
 }
 
 /// A pair whose second sphere is another chunk's leaves its force in a slot.
@@ -218,19 +230,28 @@ void give_slots(State& state) {
   Spheres& s = state.spheres;
   const std::size_t n = s.size();
   state.slot_first.assign(n + 1, 0);
-  std::size_t slots = n;
-  for (SpherePair& p : state.pairs.pair) {
-    if (p.a / kChunk == p.b / kChunk) continue;
-    p.to = static_cast<std::uint32_t>(slots++);
-    ++state.slot_first[p.b + 1];
+  state.first_slot.assign(1, static_cast<std::uint32_t>(n));
+  auto slots = static_cast<std::uint32_t>(n);
+  for (std::size_t c = 0; c < chunks_of(n); ++c) {
+    const std::size_t end = state.pairs.first[std::min(n, (c + 1) * kChunk)] / 4;
+    for (std::size_t k = state.pairs.first[c * kChunk] / 4; k < end; ++k) {
+      PairBlock& pairs = state.pairs.block[k];
+      for (std::size_t l = 0; l < 4; ++l) {
+        if (pairs.b[l] / kChunk == c) continue;
+        pairs.to[l] = slots++;
+        ++state.slot_first[pairs.b[l] + 1];
+      }
+    }
+    state.first_slot.push_back(slots);
   }
   for (std::size_t i = 0; i < n; ++i) state.slot_first[i + 1] += state.slot_first[i];
   state.slot.resize(slots - n);
   std::vector<std::uint32_t> next(state.slot_first.begin(), state.slot_first.end() - 1);
-  for (const SpherePair& p : state.pairs.pair)
-    if (p.to != p.b) state.slot[next[p.b]++] = p.to;
+  for (const PairBlock& pairs : state.pairs.block)
+    for (std::size_t l = 0; l < 4; ++l)
+      if (pairs.to[l] != pairs.b[l]) state.slot[next[pairs.b[l]]++] = pairs.to[l];
   s.force.resize(slots);
-  s.torque.resize(slots);
+  s.twist.resize(slots);
 }
 
 }  // namespace

@@ -16,9 +16,8 @@
 namespace packbed::spheres {
 namespace {
 
-template <class Pair>
-std::span<const Pair> pairs_of(const List<Pair>& list, std::size_t begin, std::size_t end) {
-  return std::span(list.pair).subspan(list.first[begin], list.first[end] - list.first[begin]);
+std::span<const PairBlock> blocks_of(const List& list, std::size_t from, std::size_t to) {
+  return std::span(list.block).subspan(from, to - from);
 }
 
 }  // namespace
@@ -34,7 +33,7 @@ void step(const Model& model, State& state, Feeder& feeder, PhaseTimes& times) {
 }
 
 SphereView view_of(Spheres& s) {
-  return {s.place.data(), s.velocity.data(), s.ahead.data(), s.spin.data(), s.force.data(), s.torque.data()};
+  return {s.place.data(), s.velocity.data(), s.spin.data(), s.force.data(), s.twist.data()};
 }
 
 PACKBED_WIDE bool kick_and_drift(const Model& model, Spheres& s, std::size_t begin, std::size_t end) {
@@ -44,11 +43,9 @@ PACKBED_WIDE bool kick_and_drift(const Model& model, Spheres& s, std::size_t beg
   for (std::size_t i = begin; i < end; ++i) {
     const Four inverse_mass = spread_w(s.velocity[i]);
     const Four kick = half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
-    const Four velocity = four(s.velocity[i]) + kick;
-    four(s.velocity[i]) = velocity;
-    four(s.ahead[i]) = velocity + kick;
+    four(s.velocity[i]) += kick;
     four(s.place[i]) += step * without_w(s.velocity[i]);
-    if (model.turns) four(s.spin[i]) += half * spread_w(s.spin[i]) * four(s.torque[i]);
+    if (model.turns) four(s.spin[i]) += half * turn_of(s, i);
     left_margin |= way_from(s.place[i], s.listed_at[i]) > s.listed_at[i].w;
   }
   return left_margin;
@@ -63,8 +60,8 @@ PACKBED_WIDE void gather_and_kick(const Model& model, State& state, std::size_t 
     const Four inverse_mass = spread_w(s.velocity[i]);
     four(s.velocity[i]) += half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
     if (!model.turns) continue;
-    gather_slots(state, i, s.torque);
-    four(s.spin[i]) += half * spread_w(s.spin[i]) * four(s.torque[i]);
+    gather_slots(state, i, s.twist);
+    four(s.spin[i]) += half * turn_of(s, i);
   }
 }
 
@@ -79,12 +76,13 @@ void kick_drift(const Model& model, State& state) {
 std::vector<Quad> sides_of(const Model& model, const State& state, std::size_t from, std::size_t to) {
   const Spheres& s = state.spheres;
   std::vector<Quad> sides;
-  for (std::size_t p = from; p < to; ++p) {
-    const std::uint32_t i = state.walls.pair[p].a;
+  for (std::size_t p = 4 * from; p < 4 * to; ++p) {
+    const std::uint32_t i = state.walls.a(p);
     const Quad& x = s.place[i];
-    Vec3 normal;
-    double distance = 0;
-    model.solid->side(s.kind[i], s.scale[i], x.w, Vec3(x.x, x.y, x.z), normal, distance);
+    Vec3 normal = Vec3::UnitZ();
+    double distance = -kNoWall.w;
+    if (state.walls.b(p) == 0)
+      model.solid->side(s.kind[i], s.scale[i], x.w, Vec3(x.x, x.y, x.z), normal, distance);
     sides.push_back({normal.x(), normal.y(), normal.z(), distance});
   }
   return sides;
@@ -92,13 +90,13 @@ std::vector<Quad> sides_of(const Model& model, const State& state, std::size_t f
 
 void touch_container_walls(const Model& model, State& state, const SphereView& view, double step,
                            std::size_t from, std::size_t to, SphereTally& tally, SphereContact* contacts) {
-  const auto pairs = std::span<const SphereWallPair>(state.walls.pair).subspan(from, to - from);
+  const std::span<const PairBlock> blocks = blocks_of(state.walls, from, to);
   const SphereMemory memory = state.walls.memory_from(from);
   if (model.solid)
-    touch_given_walls(model.wall_law, view, step, sides_of(model, state, from, to), pairs, memory, tally,
+    touch_given_walls(model.wall_law, view, step, sides_of(model, state, from, to), blocks, memory, tally,
                       contacts);
   else
-    touch_walls(model.wall_law, view, step, model.walls, pairs, memory, tally, contacts);
+    touch_walls(model.wall_law, view, step, model.walls, blocks, memory, tally, contacts);
 }
 
 void touch(const Model& model, State& state) {
@@ -108,18 +106,15 @@ void touch(const Model& model, State& state) {
     const auto clear = [&](std::vector<Quad>& of) {
       std::fill(of.begin() + static_cast<std::ptrdiff_t>(begin),
                 of.begin() + static_cast<std::ptrdiff_t>(end), Quad{});
+      std::fill(of.begin() + state.first_slot[c], of.begin() + state.first_slot[c + 1], Quad{});
     };
     clear(s.force);
-    if (model.turns) clear(s.torque);
-    for (const SpherePair& p : pairs_of(state.pairs, begin, end)) {
-      if (p.to == p.b) continue;
-      s.force[p.to] = Quad{};
-      if (model.turns) s.torque[p.to] = Quad{};
-    }
-    touch_spheres(model.pellet_law, view, model.step, pairs_of(state.pairs, begin, end),
-                  state.pairs.memory_from(state.pairs.first[begin]), state.tally[c]);
-    touch_container_walls(model, state, view, model.step, state.walls.first[begin], state.walls.first[end],
-                          state.tally[c]);
+    if (model.turns) clear(s.twist);
+    const std::size_t from = state.pairs.first[begin] / 4, to = state.pairs.first[end] / 4;
+    touch_spheres(model.pellet_law, view, model.step, blocks_of(state.pairs, from, to),
+                  state.pairs.memory_from(from), state.tally[c]);
+    touch_container_walls(model, state, view, model.step, state.walls.first[begin] / 4,
+                          state.walls.first[end] / 4, state.tally[c]);
   });
 }
 

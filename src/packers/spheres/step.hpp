@@ -32,11 +32,11 @@ void begin_gear(const Model& model, State& state);
 /// Adds what the chunks have counted since the last search to the ledger, in order.
 void settle_accounts(State& state);
 SphereView view_of(Spheres& spheres);
-/// The pairs with walls from number `from` up to `to`; see touch_walls for the rest.
+/// The blocks of pairs with walls from number `from` up to `to`; see touch_walls for the rest.
 void touch_container_walls(const Model& model, State& state, const SphereView& view, double step,
                            std::size_t from, std::size_t to, SphereTally& tally,
                            SphereContact* contacts = nullptr);
-/// Walls beside the spheres of these pairs as touch_given_walls wants them, of a mesh container.
+/// Walls beside the spheres of these blocks as touch_given_walls wants them, of a mesh container.
 std::vector<Quad> sides_of(const Model& model, const State& state, std::size_t from, std::size_t to);
 
 }  // namespace packbed::spheres
