@@ -64,10 +64,12 @@ void drop_alternatives(TomlNode& base, const TomlNode& over) {
     std::vector<const char*> drops;
   };
   static const std::vector<Rule> rules = {
-      {"damping", {"restitution"}},
-      {"restitution", {"damping"}},
-      {"stiffness", {"allowed_overlap"}},
-      {"allowed_overlap", {"stiffness"}},
+      {"damping", {"restitution", "dissipation", "tangential_dissipation"}},
+      {"restitution", {"damping", "dissipation", "tangential_dissipation"}},
+      {"dissipation", {"damping", "restitution"}},
+      {"stiffness", {"allowed_overlap", "youngs_modulus", "poisson_ratio", "shear_modulus"}},
+      {"allowed_overlap", {"stiffness", "youngs_modulus", "poisson_ratio", "shear_modulus"}},
+      {"youngs_modulus", {"stiffness", "allowed_overlap"}},
       {"csv", {"placed", "diameters", "fractions", "amounts"}},
       {"diameters", {"csv"}},
       {"fractions", {"amounts"}},
