@@ -49,7 +49,8 @@ FarPoint furthest_from_axis(const Shape& shape, const Pellet& pellet) {
     const Vec3 out = off > 0 ? Vec3(c.x() / off, c.y() / off, 0) : Vec3::UnitX();
     return {off + radius, c + radius * out};
   }
-  if (shape.kind == ShapeClass::cylinder) {  // the distance is a convex function: its maximum is on a rim
+  if (shape.kind == ShapeClass::cylinder ||
+      shape.kind == ShapeClass::tube) {  // the distance is a convex function: its maximum is on a rim
     const Vec3 a = pellet.pose.rotation * Vec3::UnitZ(), up = pellet.scale * shape.half_height * a;
     const FarPoint p = furthest_of_circle(c + up, a, pellet.scale * shape.radius),
                    q = furthest_of_circle(c - up, a, pellet.scale * shape.radius);

@@ -23,6 +23,27 @@ std::vector<Vec3> surface_points(const TriangleMesh& mesh) {
   return points;
 }
 
+/// Points on the exact surface of a tube: close together on the four rims, which dip in first.
+std::vector<Vec3> tube_points(const Shape& tube) {
+  constexpr int kRim = 240, kRows = 12, kRound = 72, kRings = 5;
+  std::vector<Vec3> points;
+  const auto add = [&](double radius, double z, int count) {
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * kPi * i / count;
+      points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
+  };
+  for (const double radius : {tube.inner_radius, tube.radius}) {
+    for (const double side : {-1.0, 1.0}) add(radius, side * tube.half_height, kRim);
+    for (int k = 1; k < kRows; ++k) add(radius, tube.half_height * (2.0 * k / kRows - 1), kRound);
+  }
+  for (int k = 1; k < kRings; ++k)
+    for (const double side : {-1.0, 1.0})
+      add(tube.inner_radius + (tube.radius - tube.inner_radius) * k / kRings, side * tube.half_height,
+          kRound);
+  return points;
+}
+
 /// Narrows [from, to] to where slope t <= room.
 bool clip(std::pair<double, double>& part, double slope, double room) {
   if (slope > 0)
@@ -60,6 +81,11 @@ std::pair<double, double> cylinder_chord(double radius, double half_height, cons
 }
 
 SolidShape::SolidShape(ShapePtr s) : shape(std::move(s)) {
+  if (shape->kind == ShapeClass::tube) {
+    convex = false;
+    points = tube_points(*shape);
+    return;
+  }
   points = surface_points(shape->surface);
   if (!seen_as_mesh(shape->kind)) return;
   planes = convex_planes(shape->surface);
@@ -79,7 +105,7 @@ Vec3 Body::furthest(const Vec3& direction) const {
   Vec3 own = Vec3::Zero();
   if (shape.kind == ShapeClass::sphere) {
     own = shape.radius * n.normalized();
-  } else if (shape.kind == ShapeClass::cylinder) {
+  } else if (shape.kind == ShapeClass::cylinder || shape.kind == ShapeClass::tube) {
     const double across = n.head<2>().norm(), side = across > 1e-15 * n.norm() ? shape.radius / across : 0;
     own = {side * n.x(), side * n.y(), std::copysign(shape.half_height, n.z())};
   } else {
@@ -111,6 +137,11 @@ double Body::depth(const Vec3& point) const {
   if (shape.kind == ShapeClass::sphere) return scale_ * (shape.radius - own.norm());
   if (shape.kind == ShapeClass::cylinder)
     return scale_ * std::min(shape.radius - own.head<2>().norm(), shape.half_height - std::abs(own.z()));
+  if (shape.kind == ShapeClass::tube) {
+    const double rho = own.head<2>().norm();
+    return scale_ *
+           std::min({shape.radius - rho, rho - shape.inner_radius, shape.half_height - std::abs(own.z())});
+  }
   if (!solid_->convex) return solid_->query->inside(own) ? -scale_ * solid_->query->signed_distance(own) : 0;
   double room = std::numeric_limits<double>::infinity();
   for (const auto& [n, offset] : solid_->planes) room = std::min(room, offset - n.dot(own));

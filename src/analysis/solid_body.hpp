@@ -17,7 +17,7 @@ struct SolidShape {
   ShapePtr shape;
   bool convex = true;
   std::vector<Plane> planes;         // convex meshes: of the faces, each once
-  std::unique_ptr<MeshQuery> query;  // meshes that are not convex
+  std::unique_ptr<MeshQuery> query;  // meshes that are not convex, but for tubes
   std::vector<Vec3> points;          // spread over the surface, own frame [m]
 };
 

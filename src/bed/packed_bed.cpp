@@ -49,7 +49,7 @@ double reach(const Shape& shape, const Pellet& pellet, const Vec3& direction) {
   const double centre = direction.dot(pellet.pose.position);
   if (shape.kind == ShapeClass::sphere) return centre + pellet.scale * shape.radius;
   const Vec3 local = pellet.pose.rotation.conjugate() * direction;
-  if (shape.kind == ShapeClass::cylinder)
+  if (shape.kind == ShapeClass::cylinder || shape.kind == ShapeClass::tube)
     return centre + pellet.scale * (shape.radius * std::hypot(local.x(), local.y()) +
                                     shape.half_height * std::abs(local.z()));
   double far = -std::numeric_limits<double>::infinity();

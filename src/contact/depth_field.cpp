@@ -48,8 +48,10 @@ struct Spline {
 };
 
 PACKBED_WIDE void evaluate_grid(const Grid& grid, const DepthBatch& batch) {
+  const double spacing = 1 / grid.per_spacing;
   for (std::size_t i = 0; i < batch.count; ++i) {
-    batch.depth[i] = batch.gx[i] = batch.gy[i] = batch.gz[i] = 0;
+    batch.depth[i] = -spacing;  // what is not in a block, or in one without coefficients, is farther away
+    batch.gx[i] = batch.gy[i] = batch.gz[i] = 0;
     const double u = (batch.x[i] - grid.x0) * grid.per_spacing, v = (batch.y[i] - grid.y0) * grid.per_spacing,
                  w = (batch.z[i] - grid.z0) * grid.per_spacing;
     if (!(u > -0.5 && v > -0.5 && w > -0.5 && u < 1e9 && v < 1e9 && w < 1e9)) continue;
@@ -62,10 +64,14 @@ PACKBED_WIDE void evaluate_grid(const Grid& grid, const DepthBatch& batch) {
     if (block < 0) continue;
     const float* row = grid.coefficient + static_cast<std::size_t>(block) * (kRow * kRow * kRow) +
                        ((iw % kBlock) * kRow + iv % kBlock) * kRow + iu % kBlock;
-    // most points that come here are just outside: the distance at the node, less the way from it, shows it
+    // many points that come here are just outside: the distance at the node, less the way from it, shows it
     const double tu = u - iu, tv = v - iv, tw = w - iw;
     const double outside = -static_cast<double>(row[kRow * kRow + kRow + 1]) * grid.per_spacing - kRounding;
-    if (outside > 0 && outside * outside > tu * tu + tv * tv + tw * tw) continue;
+    const double away2 = tu * tu + tv * tv + tw * tw;
+    if (outside > 0 && outside * outside > away2) {
+      batch.depth[i] = (std::sqrt(away2) - outside) * spacing;
+      continue;
+    }
     const Spline sx(tu), sy(tv), sz(tw);
     v4d value{}, by_y{}, by_z{};
     for (int c = 0; c < 3; ++c) {
@@ -85,44 +91,11 @@ PACKBED_WIDE void evaluate_grid(const Grid& grid, const DepthBatch& batch) {
       return weight[0] * by[0] + weight[1] * by[1] + weight[2] * by[2];
     };
     const double depth = along_x(sx.w, value);
+    batch.depth[i] = depth > 0 ? depth : std::min(0.0, depth + kRounding * spacing);
     if (!(depth > 0)) continue;
-    batch.depth[i] = depth;
     batch.gx[i] = along_x(sx.d, value) * grid.per_spacing;
     batch.gy[i] = along_x(sx.w, by_y) * grid.per_spacing;
     batch.gz[i] = along_x(sx.w, by_z) * grid.per_spacing;
-  }
-}
-
-PACKBED_WIDE void evaluate_sphere(double radius, std::size_t count, const double* __restrict x,
-                                  const double* __restrict y, const double* __restrict z,
-                                  double* __restrict depth, double* __restrict gx, double* __restrict gy,
-                                  double* __restrict gz) {
-  const double per_radius = 1 / radius;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double d = 0.5 * (radius - (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]) * per_radius);
-    const double in = d > 0 ? per_radius : 0.0;
-    depth[i] = d > 0 ? d : 0.0;
-    gx[i] = -x[i] * in;
-    gy[i] = -y[i] * in;
-    gz[i] = -z[i] * in;
-  }
-}
-
-PACKBED_WIDE void evaluate_cylinder(double radius, double half_height, std::size_t count,
-                                    const double* __restrict x, const double* __restrict y,
-                                    const double* __restrict z, double* __restrict depth,
-                                    double* __restrict gx, double* __restrict gy, double* __restrict gz) {
-  const double per_radius = 1 / radius, per_height = 1 / half_height;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double a = 0.5 * (radius - (x[i] * x[i] + y[i] * y[i]) * per_radius);
-    const double b = 0.5 * (half_height - z[i] * z[i] * per_height);
-    const double norm = std::sqrt(a * a + b * b) + 1e-300;
-    const bool in = (a > 0) & (b > 0);
-    const double by_a = in ? (1 - a / norm) * per_radius : 0.0, by_b = in ? (1 - b / norm) * per_height : 0.0;
-    depth[i] = in ? a + b - norm : 0.0;
-    gx[i] = -x[i] * by_a;
-    gy[i] = -y[i] * by_a;
-    gz[i] = -z[i] * by_b;
   }
 }
 
@@ -133,14 +106,9 @@ struct Coarse {
   const float* distance;
 };
 
-struct Points {
-  const double *x, *y, *z, *radius;
-  std::size_t count;
-};
-
 /// Lower bounds of the distance from the body, less the radius: from the nearest coarse node (the distance
 /// changes by no more than one goes), and from the body's box.
-PACKBED_WIDE void bound_grid(const Coarse& coarse, const Points& p, double* bound) {
+PACKBED_WIDE void bound_grid(const Coarse& coarse, const SphereBatch& p, double* bound) {
   const double top_x = coarse.nx - 1, top_y = coarse.ny - 1, top_z = coarse.nz - 1;
   for (std::size_t i = 0; i < p.count; ++i) {
     const double u = std::min(std::max((p.x[i] - coarse.x0) * coarse.per_spacing + 0.5, 0.0), top_x);
@@ -158,19 +126,6 @@ PACKBED_WIDE void bound_grid(const Coarse& coarse, const Points& p, double* boun
                  ez = std::max(std::abs(p.z[i] - coarse.cz) - coarse.hz, 0.0);
     const double outer2 = ex * ex + ey * ey + ez * ez;
     bound[i] = (outer2 > 0 ? std::max(inner, std::sqrt(outer2)) : inner) - p.radius[i];
-  }
-}
-
-PACKBED_WIDE void bound_sphere(double radius, const Points& p, double* bound) {
-  for (std::size_t i = 0; i < p.count; ++i)
-    bound[i] = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i] + p.z[i] * p.z[i]) - radius - p.radius[i];
-}
-
-PACKBED_WIDE void bound_cylinder(double radius, double half_height, const Points& p, double* bound) {
-  for (std::size_t i = 0; i < p.count; ++i) {
-    const double across = std::sqrt(p.x[i] * p.x[i] + p.y[i] * p.y[i]) - radius;
-    const double along = std::abs(p.z[i]) - half_height;
-    bound[i] = (across > along ? across : along) - p.radius[i];
   }
 }
 
@@ -212,22 +167,52 @@ double cube(double x) {
 
 DepthField DepthField::of_sphere(double radius) {
   DepthField field;
-  field.kind_ = Kind::sphere;
-  field.radius_ = radius;
+  field.form_.kind = DepthKind::sphere;
+  field.form_.radius = radius;
   return field;
 }
 
 DepthField DepthField::of_cylinder(double radius, double half_height) {
+  DepthField field = of_sphere(radius);
+  field.form_.kind = DepthKind::cylinder;
+  field.form_.half_height = half_height;
+  return field;
+}
+
+DepthField DepthField::of_tube(double radius, double inner_radius, double half_height) {
+  DepthField field = of_cylinder(radius, half_height);
+  field.form_.kind = DepthKind::tube;
+  field.form_.inner_radius = inner_radius;
+  return field;
+}
+
+DepthField DepthField::of_planes(const std::vector<Plane>& planes) {
   DepthField field;
-  field.kind_ = Kind::cylinder;
-  field.radius_ = radius;
-  field.half_height_ = half_height;
+  field.form_.kind = DepthKind::planes;
+  for (const Plane& plane : planes) {
+    field.form_.nx.push_back(plane.normal.x());
+    field.form_.ny.push_back(plane.normal.y());
+    field.form_.nz.push_back(plane.normal.z());
+    field.form_.offset.push_back(plane.offset);
+  }
+  return field;
+}
+
+DepthField DepthField::of_floor() {
+  DepthField field;
+  field.form_.kind = DepthKind::floor;
+  return field;
+}
+
+DepthField DepthField::of_bore(double radius) {
+  DepthField field = of_sphere(radius);
+  field.form_.kind = DepthKind::bore;
   return field;
 }
 
 DepthField DepthField::of_mesh(const TriangleMesh& mesh, double spacing, double deepest) {
   DepthField field;
-  field.kind_ = Kind::grid;
+  field.form_.kind = DepthKind::grid;
   field.spacing_ = spacing;
   const TriangleTree tree(mesh);
   const Box3 box = bounding_box(mesh);
@@ -310,37 +295,37 @@ double DepthField::estimate_bytes(const TriangleMesh& mesh, double spacing, doub
 }
 
 void DepthField::evaluate(const DepthBatch& batch) const {
-  const DepthBatch& b = batch;
-  if (kind_ == Kind::sphere)
-    return evaluate_sphere(radius_, b.count, b.x, b.y, b.z, b.depth, b.gx, b.gy, b.gz);
-  if (kind_ == Kind::cylinder)
-    return evaluate_cylinder(radius_, half_height_, b.count, b.x, b.y, b.z, b.depth, b.gx, b.gy, b.gz);
+  if (form_.kind != DepthKind::grid) return evaluate_form(form_, batch);
   evaluate_grid({origin_.x(), origin_.y(), origin_.z(), 1 / spacing_, blocks_[0], blocks_[1], blocks_[2],
                  block_.data(), coefficient_.data(), plateau_},
                 batch);
 }
 
 double DepthField::depth(const Vec3& x, Vec3* gradient) const {
-  double depth = 0;
-  Vec3 g = Vec3::Zero();
-  evaluate({&x[0], &x[1], &x[2], &depth, &g[0], &g[1], &g[2], 1});
-  if (gradient) *gradient = g;
-  return depth;
+  // a batch is evaluated four at a time
+  double px[4], py[4], pz[4], depth[4], gx[4], gy[4], gz[4];
+  std::fill(px, px + 4, x[0]);
+  std::fill(py, py + 4, x[1]);
+  std::fill(pz, pz + 4, x[2]);
+  evaluate({px, py, pz, depth, gx, gy, gz, 4});
+  const bool inside = depth[0] > 0;
+  if (gradient) *gradient = inside ? Vec3(gx[0], gy[0], gz[0]) : Vec3(0, 0, 0);
+  return inside ? depth[0] : 0.0;
 }
 
 std::size_t DepthField::near(const double* x, const double* y, const double* z, const double* radius,
                              std::size_t count, std::uint16_t* indices, double* apart) const {
   alignas(64) double bound[kChunk];
-  const Points points{x, y, z, radius, count};
+  const SphereBatch spheres{x, y, z, radius, count};
   assert(count <= kChunk);
-  if (kind_ == Kind::sphere) bound_sphere(radius_, points, bound);
-  if (kind_ == Kind::cylinder) bound_cylinder(radius_, half_height_, points, bound);
-  if (kind_ == Kind::grid)
+  if (form_.kind != DepthKind::grid)
+    bound_form(form_, spheres, bound);
+  else
     bound_grid(
         {coarse_origin_.x(), coarse_origin_.y(), coarse_origin_.z(), coarse_spacing_, 1 / coarse_spacing_,
          box_centre_.x(), box_centre_.y(), box_centre_.z(), box_half_.x(), box_half_.y(), box_half_.z(),
          coarse_size_[0], coarse_size_[1], coarse_size_[2], coarse_.data()},
-        points, bound);
+        spheres, bound);
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {  // without a branch: which points are near is as good as random
     indices[found] = static_cast<std::uint16_t>(i);

@@ -2,9 +2,8 @@
 // How deep a point is inside a body. Zero on the surface and outside, of unit slope at the surface, and C1:
 // the force is the gradient of its 8th power, so nothing jumps.
 //
-//   sphere     (R^2 - r^2) / 2R                                                      closed form
-//   cylinder   a + b - sqrt(a^2 + b^2), a = (R^2 - rho^2)/2R, b = (h^2 - z^2)/2h     closed form
-//   mesh       minus the signed distance, sampled on a regular grid and smoothed by quadratic B-splines
+//   spheres, cylinders, tubes, convex polyhedra, plain walls: in closed form (contact/depth_forms.hpp)
+//   mesh: minus the signed distance, sampled on a regular grid and smoothed by quadratic B-splines
 //
 // Quadratic splines over 3x3x3 coefficients are the cheapest C1 field on a grid (tricubic: 64). The
 // coefficients come from the samples by f - (laplacian of f)/8, a local rule that reproduces every quadratic
@@ -14,23 +13,22 @@
 #include <span>
 #include <vector>
 
+#include "contact/depth_forms.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "shape/shape.hpp"
 
 namespace packbed {
 
-/// Points in the frame of a field and what it says of them; arrays of equal length, padded by the caller to a
-/// multiple of 4 with any finite numbers.
-struct DepthBatch {
-  const double *x, *y, *z;       // [m]
-  double *depth, *gx, *gy, *gz;  // [m], gradient of the depth [-]
-  std::size_t count = 0;
-};
-
 class DepthField {
  public:
   static DepthField of_sphere(double radius);
   static DepthField of_cylinder(double radius, double half_height);
+  static DepthField of_tube(double radius, double inner_radius, double half_height);
+  /// Of a convex polyhedron.
+  static DepthField of_planes(const std::vector<Plane>& planes);
+  /// The half space z < 0, and the outside of an upright tube of inner radius `radius` round the z axis.
+  static DepthField of_floor();
+  static DepthField of_bore(double radius);
   /// `spacing` of the grid [m]; depths beyond `deepest` are cut off there (0: none are).
   static DepthField of_mesh(const TriangleMesh& mesh, double spacing, double deepest = 0);
   /// Bytes that of_mesh would take, estimated from the area of the mesh; for a whole body without `deepest`,
@@ -38,6 +36,7 @@ class DepthField {
   static double estimate_bytes(const TriangleMesh& mesh, double spacing, double deepest);
 
   void evaluate(const DepthBatch& batch) const;
+  /// 0 outside, with the gradient.
   double depth(const Vec3& x, Vec3* gradient = nullptr) const;
 
   static constexpr std::size_t kChunk = 256;
@@ -51,13 +50,11 @@ class DepthField {
   std::size_t bytes() const;
 
  private:
-  enum class Kind { sphere, cylinder, grid };
   DepthField() = default;
   void make_coarse(const TriangleTree& tree, const Box3& box);
   void make_blocks(const TriangleTree& tree, double deepest);
 
-  Kind kind_ = Kind::sphere;
-  double radius_ = 0, half_height_ = 0;
+  DepthForm form_;
   // blocks of 8^3 cells round nodes, each with the 10^3 coefficients that its splines need
   double spacing_ = 0;
   Vec3 origin_ = Vec3::Zero();            // of node (0, 0, 0)

@@ -88,10 +88,11 @@ void add_rocking(ContactForce& out, const Touch& touch, const LawNumbers& law, c
 ContactForce resolve(const Touch& touch, const LawNumbers& law, const Approach& approach, double step,
                      Spring& spring) {
   ContactForce out;
+  const double stiffness = law.stiffness * touch.share;
   const double damping = approach.inverse_mass > 0
-                             ? 2.0 * law.damping_ratio * std::sqrt(law.stiffness / approach.inverse_mass)
+                             ? 2.0 * law.damping_ratio * std::sqrt(stiffness / approach.inverse_mass)
                              : 0.0;
-  const double spring_force = law.stiffness * touch.delta;
+  const double spring_force = stiffness * touch.delta;
   out.push = std::max(0.0, spring_force + damping * approach.closing);
   out.elastic = 0.5 * spring_force * touch.delta;
   const double drag = out.push - spring_force;

@@ -25,7 +25,7 @@ std::size_t points_on(double area, double spacing) {
   return static_cast<std::size_t>(std::max(1.0, std::round(area / (kHexagon * spacing * spacing))));
 }
 
-// --- sphere and cylinder: evenly spread by spirals --------------------------------------------------------
+// --- sphere, cylinder and tube: evenly spread --------------------------------------------------------
 
 std::vector<Sample> sphere_samples(double radius, double spacing) {
   const double area = 4 * kPi * radius * radius;
@@ -40,44 +40,56 @@ std::vector<Sample> sphere_samples(double radius, double spacing) {
   return samples;
 }
 
-void add_cap(std::vector<Sample>& samples, double radius, double z, double spacing) {
-  const double area = kPi * radius * radius;
+/// `size` makes areas lengths [m]; the hole of the cap may be 0 wide.
+void add_cap(std::vector<Sample>& samples, double radius, double hole, double z, double size,
+             double spacing) {
+  const double area = kPi * (radius * radius - hole * hole);
   const std::size_t n = std::max<std::size_t>(7, points_on(area, spacing));
   for (std::size_t i = 0; i < n; ++i) {
-    const double r = radius * std::sqrt((static_cast<double>(i) + 0.5) / static_cast<double>(n));
+    const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    const double r = std::sqrt(hole * hole + share * (radius * radius - hole * hole));
     const double angle = kGolden * static_cast<double>(i);
     samples.push_back({{r * std::cos(angle), r * std::sin(angle), z},
                        {0, 0, z > 0 ? 1.0 : -1.0},
-                       area / static_cast<double>(n) / radius});
+                       area / static_cast<double>(n) / size});
   }
 }
 
-std::vector<Sample> cylinder_samples(double radius, double half_height, double spacing) {
-  std::vector<Sample> samples;
-  add_cap(samples, radius, half_height, spacing);
-  add_cap(samples, radius, -half_height, spacing);
-  // the side: rows of a hexagonal pattern, every other one shifted
+/// Rows of a hexagonal pattern, every other one shifted, and both rims. `inner`: of a hole, which is hollow
+/// and has no curvature that would count.
+void add_side(std::vector<Sample>& samples, double radius, double half_height, bool inner, double size,
+              double spacing) {
   const double round = 2 * kPi * radius, height = 2 * half_height;
   const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(height / (kHexagon * spacing))));
   const auto columns = static_cast<std::size_t>(std::max(6.0, std::round(round / spacing)));
   const double cell = round * height / static_cast<double>(rows * columns);
+  const double outward = inner ? -1.0 : 1.0, weight = 1 / size + (inner ? 0 : kCurved / radius);
   for (std::size_t k = 0; k < rows; ++k)
     for (std::size_t i = 0; i < columns; ++i) {
       const double angle = 2 * kPi * (static_cast<double>(i) + 0.5 * static_cast<double>(k % 2)) /
                            static_cast<double>(columns);
-      const Vec3 normal(std::cos(angle), std::sin(angle), 0);
+      const Vec3 out(std::cos(angle), std::sin(angle), 0);
       const double z = height * ((static_cast<double>(k) + 0.5) / static_cast<double>(rows) - 0.5);
-      samples.push_back({radius * normal + Vec3(0, 0, z), normal, cell * (1 + kCurved) / radius});
+      samples.push_back({radius * out + Vec3(0, 0, z), outward * out, cell * weight});
     }
-  // rims
   const auto n = static_cast<std::size_t>(std::max(12.0, std::round(round / (kEdgeSpacing * spacing))));
   for (const double side : {-1.0, 1.0})
     for (std::size_t i = 0; i < n; ++i) {
       const double angle = 2 * kPi * static_cast<double>(i) / static_cast<double>(n);
       const Vec3 out(std::cos(angle), std::sin(angle), 0);
-      samples.push_back({radius * out + Vec3(0, 0, side * half_height), (out + Vec3(0, 0, side)).normalized(),
+      samples.push_back({radius * out + Vec3(0, 0, side * half_height),
+                         (outward * out + Vec3(0, 0, side)).normalized(),
                          kEdge * kPi / 2 * round / static_cast<double>(n)});
     }
+}
+
+/// Of a cylinder, or of a tube when inner_radius is not 0.
+std::vector<Sample> tube_samples(const Shape& shape, double size, double spacing) {
+  std::vector<Sample> samples;
+  for (const double side : {1.0, -1.0})
+    add_cap(samples, shape.radius, shape.inner_radius, side * shape.half_height, size, spacing);
+  add_side(samples, shape.radius, shape.half_height, false, size, spacing);
+  if (shape.inner_radius > 0) add_side(samples, shape.inner_radius, shape.half_height, true, size, spacing);
   return samples;
 }
 
@@ -279,7 +291,7 @@ std::vector<Sample> face_samples(const TriangleMesh& mesh, const std::vector<Vec
 
 std::vector<Sample> edge_samples(const TriangleMesh& mesh, const std::vector<Vec3>& normal,
                                  const std::vector<Edge>& edges, double spacing) {
-  std::vector<Sample> dense;
+  std::vector<Sample> samples;
   for (const Edge& e : edges) {
     if (e.angle < kSharpAngle) continue;
     const Vec3 &a = mesh.vertices[static_cast<std::size_t>(e.low)],
@@ -287,11 +299,11 @@ std::vector<Sample> edge_samples(const TriangleMesh& mesh, const std::vector<Vec
     const Vec3 n =
         (normal[static_cast<std::size_t>(e.left)] + normal[static_cast<std::size_t>(e.right)]).normalized();
     const double length = (b - a).norm();
-    const int parts = std::max(1, static_cast<int>(std::ceil(length / (0.25 * spacing))));
+    const int parts = std::max(1, static_cast<int>(std::round(length / spacing)));
     for (int k = 0; k < parts; ++k)
-      dense.push_back({a + (k + 0.5) / parts * (b - a), n, kEdge * e.angle * length / parts});
+      samples.push_back({a + (k + 0.5) / parts * (b - a), n, kEdge * e.angle * length / parts});
   }
-  return dense.empty() ? dense : thinned(dense, spacing);
+  return samples;
 }
 
 std::vector<Sample> corner_samples(const TriangleMesh& mesh, const std::vector<Edge>& edges, double size) {
@@ -374,13 +386,14 @@ double size_radius(const Shape& shape) {
 }
 
 SurfacePoints sample_surface(const Shape& shape, double spacing) {
-  double cover =
-      spacing;  // of the evenly spread points of spheres and cylinders; their worst is 0.8 spacings
+  double cover = spacing;  // of evenly spread points, of which the worst is 0.8 spacings
+  const double size = size_radius(shape);
   const auto samples = [&] {
     if (shape.kind == ShapeClass::sphere) return sphere_samples(shape.radius, spacing);
-    if (shape.kind == ShapeClass::cylinder) return cylinder_samples(shape.radius, shape.half_height, spacing);
+    if (shape.kind == ShapeClass::cylinder || shape.kind == ShapeClass::tube)
+      return tube_samples(shape, size, spacing);
     cover = 0;
-    return mesh_samples(shape.surface, size_radius(shape), spacing, cover);
+    return mesh_samples(shape.surface, size, spacing, cover);
   };
   SurfacePoints points = clustered(samples());
   points.cover = cover;

@@ -63,6 +63,8 @@ struct Touch {
   double patch_radius = 0;       // root mean square distance of the pressure from `point` [m]
   Mat3 patch = Mat3::Zero();     // second moment of the pressure about `point` [m2]
   double depth = 0;  // greatest distance of any feature point from the surface that it dips through [m]
+  double share =
+      1;  // of the pair's stiffness, when the pair touches in several patches (contact/patches.hpp)
 };
 
 /// Sum of the rates w p d^(p - 1) of points x, of rate x, and of rate x x^T.

@@ -254,7 +254,8 @@ std::string made_text(const Scene& s, const Expected& e) {
   std::string out = "made\n" + feed_text(s);
   for (const PelletKind& k : s.pellets)
     if (uses_field(s, *k.shape))
-      out += fmt::format("  distance field and surface points of {}\n", k.shape->name);
+      out += fmt::format("  {}surface points of {}\n",
+                         k.shape->kind == ShapeClass::mesh ? "distance field and " : "", k.shape->name);
   if (s.container.kind == ContainerKind::mesh)
     out += fmt::format("  search structure over the triangles of {}\n", s.container.name);
   if (s.analysis.voxels)

@@ -183,11 +183,14 @@ double energy_error(ContainerKind container, const ShapePtr& shape, double steps
   return std::sqrt(squares / hits);
 }
 
+constexpr const char* kBodies[] = {"Spheres", "Cylinders", "Tubes"};
+
 class ElasticImpacts : public testing::TestWithParam<std::tuple<ContainerKind, int>> {};
 
 TEST_P(ElasticImpacts, KeepTheirEnergyBetterWithShorterSteps) {
   const auto [container, body] = GetParam();
-  const ShapePtr shape = body == 0 ? make_sphere("ball", 2e-3) : a38();
+  const ShapePtr shapes[] = {make_sphere("ball", 2e-3), a38(), make_ring("ring", 4.6e-3, 2.5e-3, 5e-3)};
+  const ShapePtr& shape = shapes[body];
   const double at20 = energy_error(container, shape, 20), at40 = energy_error(container, shape, 40);
   EXPECT_LT(at20, 0.01);
   EXPECT_LT(at40, 0.003);
@@ -198,9 +201,9 @@ TEST_P(ElasticImpacts, KeepTheirEnergyBetterWithShorterSteps) {
 
 INSTANTIATE_TEST_SUITE_P(Of, ElasticImpacts,
                          testing::Combine(testing::Values(ContainerKind::none, ContainerKind::plane),
-                                          testing::Values(0, 1)),
+                                          testing::Values(0, 1, 2)),
                          [](const auto& of) {
-                           return std::string(std::get<1>(of.param) == 0 ? "Spheres" : "Cylinders") +
+                           return std::string(kBodies[std::get<1>(of.param)]) +
                                   (std::get<0>(of.param) == ContainerKind::none ? "" : "OnTheFloor");
                          });
 

@@ -1,5 +1,7 @@
 #include "packers/mesh/account.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +19,26 @@ Pellet pellet_of(const State& state, std::size_t i) {
   p.spin = spin_of(b, i);  // bodies.spin is of the middle of the step
   p.fixed = b.motion[i] == Motion::fixed;
   return p;
+}
+
+void audit_thin_walls(RunRecord& record, const Model& model, const State& state) {
+  if (!(model.thinnest_wall > 0)) return;
+  const Ledger& l = state.ledger;
+  std::string finding = fmt::format(
+      "pressed in by at most {:.2f} % of the thickness (limit {:.0f} %), bodies went at most {:.2f} % "
+      "of it in a step (limit {:.0f} %)",
+      100 * l.peak, 100 * kPierced, 100 * l.stride, 100 * kMostStride);
+  if (l.peak > kPierced)
+    finding += fmt::format(
+        "; ended at {:.4g} s, before bodies pass through each other: contact.stiffness would "
+        "have to be {:.3g} N/m or more",
+        state.time, model.pellet_law.stiffness * std::pow(l.peak / (0.5 * kPierced), 2));
+  if (l.stride > kMostStride)
+    finding += fmt::format(
+        "; ended at {:.4g} s, before bodies pass through each other: stepping.step would have "
+        "to be {:.3g} us or less",
+        state.time, 1e6 * model.step * kMostStride / (2 * l.stride));
+  add_line(record, "walls", !pierced(model, state), finding);
 }
 
 /// Upward force of floor and sides on the pellets, and the pellets' weight [N].
@@ -58,8 +80,16 @@ PackedBed bed_of(const Scene& scene, const Model& model, const State& state) {
     const Load& load = state.pairs.load[p];
     if (!(load.delta > 0)) continue;
     const auto [a, b] = state.pairs.pair[p];
-    bed.contacts.push_back(
-        {a, is_container(b) ? kContainer : b, state.pairs.record[p].point, load.force, load.delta});
+    const std::uint32_t other = is_container(b) ? kContainer : b;
+    if (!uses_fields(model)) {
+      bed.contacts.push_back({a, other, state.pairs.record[p].point, load.force, load.delta});
+      continue;
+    }
+    const PatchRecords& patches = state.pairs.patches[p];
+    for (std::size_t k = 0; k < patches.count; ++k) {
+      const PatchRecord& patch = patches.patch[k];
+      bed.contacts.push_back({a, other, patch.mark.centre, patch.force, patch.delta});
+    }
   }
   return bed;
 }
@@ -94,6 +124,7 @@ void fill_record(RunRecord& record, const Scene& scene, const Model& model, cons
   audit_rest(record, model.stepping, state.rest);
   audit_impacts(record, {l.touches, l.deep_touches, l.very_deep_touches, l.peak});
   audit_energy(record, energy_of(model, state));
+  audit_thin_walls(record, model, state);
   audit_walls(record, model, state);
   const double steps = std::max(1.0, static_cast<double>(state.steps));
   record.counters = {{"touches", l.touches},

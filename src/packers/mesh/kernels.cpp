@@ -9,10 +9,6 @@
 namespace packbed::mesh {
 namespace {
 
-FieldPellet field_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
-  return {model.kinds[bodies.kind[i]].field.get(), {bodies.position[i], bodies.rotation[i]}, bodies.scale[i]};
-}
-
 /// Of a sphere; its bounding radius holds the facets of its surface too.
 double radius_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
   return bodies.scale[i] * model.kinds[bodies.kind[i]].shape->radius;
@@ -28,23 +24,13 @@ Touch touch_side(const Model& model, const Bodies& bodies, std::uint32_t a, cons
   const Quat lay = Quat::FromTwoVectors(side.inwards, Vec3::UnitZ()), raise = lay.conjugate();
   const Vec3 up = side.half * Vec3::UnitZ(), laid = lay * x + up;
   Touch t;
-  switch (kind.kernel) {
-    case Kernel::sphere:
-      t = touch_floor(laid, radius_of(model, bodies, a));
-      break;
-    case Kernel::cylinder: {
-      Rod rod = rod_of(model, bodies, a);
-      rod.centre = laid;
-      rod.axis = lay * rod.axis;
-      t = touch_floor(rod, gap);
-      break;
-    }
-    case Kernel::field: {
-      FieldPellet pellet = field_of(model, bodies, a);
-      pellet.pose = {laid, lay * pellet.pose.rotation};
-      t = touch_floor(pellet);
-      break;
-    }
+  if (kind.kernel == Kernel::sphere) {
+    t = touch_floor(laid, radius_of(model, bodies, a));
+  } else {
+    Rod rod = rod_of(model, bodies, a);
+    rod.centre = laid;
+    rod.axis = lay * rod.axis;
+    t = touch_floor(rod, gap);
   }
   t.gradient = raise * t.gradient;
   t.torque_a = raise * t.torque_a;
@@ -60,22 +46,14 @@ Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std:
   if (is_side(which)) return touch_side(model, bodies, a, side_of(model.container, which - kSide), gap);
   const Vec3& x = bodies.position[a];
   const Kind& kind = model.kinds[bodies.kind[a]];
-  if (which == kSolid) return touch_container(field_of(model, bodies, a), *model.wall_field, &gap);
   const double tube = model.container.radius;
   const bool floor = which == kFloor;
   gap = (floor ? x.z() : tube - std::hypot(x.x(), x.y())) - bodies.bounding_radius[a];
   if (gap > 0) return {};
-  switch (kind.kernel) {
-    case Kernel::sphere:
-      return floor ? touch_floor(x, radius_of(model, bodies, a))
-                   : touch_tube(x, radius_of(model, bodies, a), tube);
-    case Kernel::cylinder:
-      return floor ? touch_floor(rod_of(model, bodies, a), gap)
-                   : touch_tube(rod_of(model, bodies, a), tube, gap);
-    case Kernel::field:
-      return floor ? touch_floor(field_of(model, bodies, a)) : touch_tube(field_of(model, bodies, a), tube);
-  }
-  return {};
+  if (kind.kernel == Kernel::sphere)
+    return floor ? touch_floor(x, radius_of(model, bodies, a))
+                 : touch_tube(x, radius_of(model, bodies, a), tube);
+  return floor ? touch_floor(rod_of(model, bodies, a), gap) : touch_tube(rod_of(model, bodies, a), tube, gap);
 }
 
 Touch touch_rods(const Rod& a, const Rod& b, PairRecord& record, double& gap) {
@@ -111,8 +89,6 @@ Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair,
   if (gap > 0) return {};
   if (ka.kernel == Kernel::sphere && kb.kernel == Kernel::sphere)
     return touch_spheres(xa, radius_of(model, bodies, a), xb, radius_of(model, bodies, b));
-  if (ka.kernel == Kernel::field)
-    return touch_field(field_of(model, bodies, a), field_of(model, bodies, b), &gap);
   return touch_rods(rod_of(model, bodies, a), rod_of(model, bodies, b), record, gap);
 }
 

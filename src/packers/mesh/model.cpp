@@ -9,9 +9,12 @@
 
 #include "math/error.hpp"
 #include "packers/expect.hpp"
+#include "packers/mesh/kernels.hpp"
 
 namespace packbed::mesh {
 namespace {
+
+constexpr double kLeastSpeed = 0.1;  // [m/s]; a bed that is only placed still has to carry itself
 
 Kernel kernel_for(const Scene& scene, const Shape& shape) {
   const auto refuse = [&](const char* fits) {
@@ -59,11 +62,28 @@ std::vector<Kind> make_kinds(const Scene& scene) {
   return kinds;
 }
 
+void add_wall_fields(Model& model) {
+  const auto set = [&](std::uint32_t which, FieldWall wall) {
+    model.wall_field[which - kSide] = std::make_shared<FieldWall>(std::move(wall));
+  };
+  const ContainerKind kind = model.container.kind;
+  if (kind == ContainerKind::plane || kind == ContainerKind::tube || kind == ContainerKind::box)
+    set(kFloor, make_field_floor());
+  for (std::uint32_t k = 0; k < 4 && kind == ContainerKind::box; ++k) {
+    const BoxSide side = side_of(model.container, k);
+    set(kSide + k, {DepthField::of_planes({{side.inwards, -side.half}}), 0});
+  }
+  if (kind == ContainerKind::tube) set(kWall, make_field_bore(model.container.radius));
+  if (kind != ContainerKind::mesh) return;
+  double thickness = std::numeric_limits<double>::infinity();
+  for (const Kind& k : model.kinds) thickness = std::min(thickness, k.smallest * k.thickness);
+  set(kSolid, make_field_wall(model.container, thickness));
+}
+
 /// k from "the hardest impact of one pellet on a wall may overlap by so much".
 double find_stiffness(const Scene& scene, const ContactLaw& law, const std::vector<Kind>& kinds) {
   if (law.stiffness > 0) return law.stiffness;
-  const double speed =
-      std::max(landing_speed(scene), 0.1);  // [m/s]; a bed that is only placed still has to carry itself
+  const double speed = std::max(landing_speed(scene), kLeastSpeed);
   double stiffness = 0;
   for (const Kind& kind : kinds) {
     const double overlap = law.allowed_overlap * kind.thickness;
@@ -76,6 +96,48 @@ double find_stiffness(const Scene& scene, const ContactLaw& law, const std::vect
 LawNumbers find_law(const Scene& scene, const ContactLaw& law, const std::vector<Kind>& kinds) {
   return {find_stiffness(scene, law, kinds), law.damping_ratio, law.friction, law.torsion,
           law.rolling_friction};
+}
+
+/// Tubes and meshes: what is pressed past the middle of a wall comes out on its other side.
+bool is_wall(const Kind& kind) {
+  return kind.kernel == Kernel::field &&
+         (kind.shape->kind == ShapeClass::tube || kind.shape->kind == ShapeClass::mesh);
+}
+
+double find_thinnest_wall(const std::vector<Kind>& kinds) {
+  double thinnest = 0;
+  for (const Kind& kind : kinds)
+    if (const double wall = kind.smallest * kind.thickness;
+        is_wall(kind) && !(thinnest > 0 && thinnest <= wall))
+      thinnest = wall;
+  return thinnest;
+}
+
+/// Refuses contacts too soft, and steps too long, for the walls at the expected speed.
+void require_safe_walls(const Scene& scene, const Model& model) {
+  const double speed = std::max(landing_speed(scene), kLeastSpeed), stiffness = model.pellet_law.stiffness;
+  for (const Kind& kind : model.kinds) {
+    if (!is_wall(kind)) continue;
+    // of the largest: a body twice as large presses sqrt(2) times deeper, beside its wall
+    const double depth = speed * std::sqrt(kind.mass * std::pow(kind.largest, 3) / stiffness),
+                 thickness = kind.largest * kind.thickness, most = kPierced * thickness;
+    if (depth > most)
+      throw InputError(
+          scene.case_file + ": contact.stiffness",
+          fmt::format("{:.4g} N/m: at {:.3g} m/s the wall of {}, {:.3g} mm thick, would be pressed "
+                      "in by {:.0f} % of that, and bodies would pass through each other",
+                      stiffness, speed, kind.shape->name, 1e3 * thickness, 100 * depth / thickness),
+          fmt::format("at least {:.4g} N/m", stiffness * depth * depth / (most * most)),
+          "raise it, leave it out, or lower feed.drop_height");
+    const double stride = kMostStride * kind.smallest * kind.thickness / speed;
+    if (model.step > stride)
+      throw InputError(
+          scene.case_file + ": stepping.step",
+          fmt::format("{:.3g} us: at {:.3g} m/s a body would go {:.0f} % of the thickness of the "
+                      "wall of {} in a step, and might pass through",
+                      1e6 * model.step, speed, 100 * kMostStride * model.step / stride, kind.shape->name),
+          fmt::format("at most {:.3g} us", 1e6 * stride), "leave it out, or lower feed.drop_height");
+  }
 }
 
 /// Contact time of the stiffest contact: two of the lightest pellets, or one on the wall, face to face.
@@ -105,15 +167,12 @@ Model make_model(const Scene& scene) {
   Model model;
   model.kinds = make_kinds(scene);
   model.container = scene.container;
-  if (scene.container.kind == ContainerKind::mesh) {
-    double thickness = std::numeric_limits<double>::infinity();
-    for (const Kind& kind : model.kinds) thickness = std::min(thickness, kind.smallest * kind.thickness);
-    model.wall_field = std::make_shared<FieldWall>(make_field_wall(scene.container, thickness));
-  }
+  if (uses_fields(model)) add_wall_fields(model);
   model.gravity = scene.gravity;
   if (scene.gravity.norm() > 0) model.up = -scene.gravity.normalized();
   model.pellet_law = find_law(scene, scene.pellet_contact, model.kinds);
   model.wall_law = find_law(scene, scene.wall_contact, model.kinds);
+  model.thinnest_wall = find_thinnest_wall(model.kinds);
   model.stepping = scene.stepping;
   model.size = std::numeric_limits<double>::infinity();
   double largest = 0;
@@ -129,6 +188,7 @@ Model make_model(const Scene& scene) {
         scene.case_file + ": stepping.step", fmt::format("{:.3g} us", 1e6 * model.step),
         fmt::format("at most {:.3g} us, a sixth of the stiffest contact's time", 1e6 * contact / 6.0),
         "leave the step out, or lower contact.stiffness");
+  require_safe_walls(scene, model);
   model.skin = scene.stepping.skin > 0 ? scene.stepping.skin : 0.05 * largest;
   // leaps need a floor below and nothing above: a container that is not recognised may have anything anywhere
   model.may_fly =

@@ -1,6 +1,7 @@
 #pragma once
 // The mesh packer's two records: Model never changes in a run, State is all that does (and all that a
 // checkpoint holds).
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -10,6 +11,7 @@
 #include "contact/cylinder.hpp"
 #include "contact/field.hpp"
 #include "contact/law.hpp"
+#include "contact/patches.hpp"
 #include "dynamics/bodies.hpp"
 #include "dynamics/neighbours.hpp"
 #include "packers/rest_watch.hpp"
@@ -30,20 +32,34 @@ struct Kind {
   std::shared_ptr<const FieldBody> field;     // made only for Kernel::field
 };
 
+/// Fraction of a wall's thickness. Nearer to its middle a depth no longer tells from which side it counts,
+/// and bodies may pass through each other: a run in which something is so deep in a wall ends there and
+/// fails.
+inline constexpr double kPierced = 0.3;
+/// Fraction of the thinnest wall that a body may go in one step: what goes farther might never be seen
+/// inside.
+inline constexpr double kMostStride = 0.1;
+
 struct Model {
   std::vector<Kind> kinds;
   Container container;
-  std::shared_ptr<const FieldWall> wall_field;  // made only for a container that was not recognised
+  // sides of a box, floor, wall and solid, in the order of their numbers below; made only for Kernel::field
+  std::array<std::shared_ptr<const FieldWall>, 7> wall_field;
   Vec3 gravity = Vec3::Zero(), up = Vec3::UnitZ();
   LawNumbers pellet_law, wall_law;
   double step = 0;  // [s]
   double skin = 0;  // [m]
   double size = 0;  // of the smallest pellet, the yardstick of rest and sleep [m]
   Stepping stepping;
+  double thinnest_wall = 0;  // of kinds that are not convex, which something may be pressed through [m]
   bool may_fly = false;      // fed bodies may leap: there is gravity and nothing stands above the bed
   double expected_time = 0;  // of the whole run, for the progress line [s]
 };
 
+/// Whether its pairs are looked at by the field kernel; then all are.
+inline bool uses_fields(const Model& model) {
+  return model.kinds.front().kernel == Kernel::field;
+}
 /// Throws InputError for a scene that cannot be packed as given.
 Model make_model(const Scene& scene);
 /// "sphere", "cylinder", "field", or several with "+".
@@ -79,11 +95,27 @@ struct PairRecord {
   std::uint32_t touches = 0, deep_touches = 0, very_deep_touches = 0;
 };
 
+/// A patch of a pair of the field kernel, between steps.
+struct PatchRecord {
+  PatchMark mark;
+  Spring spring;
+  Vec3 force = Vec3::Zero();  // on a [N]
+  double delta = 0;           // [m]
+  double stretched = 0;       // energy in the springs of friction [J]
+};
+struct PatchRecords {
+  std::array<PatchRecord, kMostPatches> patch;
+  std::size_t count = 0;
+};
+
 struct Pairs {
   std::vector<BodyPair> pair;   // ascending
   std::vector<double> look_at;  // no touch before the travel of both bodies adds up to this [m]
   std::vector<Load> load;
   std::vector<PairRecord> record;
+  // of the field kernel, else empty
+  std::vector<PatchRecords> patches;
+  std::vector<NearPoints> near;       // not in checkpoints: they change no result
   std::vector<std::uint32_t> active;  // those with a body that moves
   // bodies to pairs: entries 2 * pair + side of body i stand at first[i] .. first[i + 1]
   std::vector<std::uint32_t> first, entry;
@@ -106,6 +138,7 @@ struct Ledger {
   double peak = 0;                                              // greatest depth, fraction of the thickness
   double touches = 0, deep_touches = 0, very_deep_touches = 0;  // see PairRecord
   double searches = 0, wakes = 0, sleeps = 0;
+  double stride = 0;             // farthest way of a body in one step, fraction of the thinnest wall
   double awake = 0, active = 0;  // bodies stepped and pairs walked over, added up over all steps
 };
 
@@ -129,5 +162,10 @@ struct State {
   double wall_s = 0, cpu_s = 0;  // spent before the last checkpoint
   Ledger ledger;
 };
+
+/// Something has been pressed so far into a wall, or goes so fast, that the run cannot go on.
+inline bool pierced(const Model& model, const State& state) {
+  return model.thinnest_wall > 0 && (state.ledger.peak > kPierced || state.ledger.stride > kMostStride);
+}
 
 }  // namespace packbed::mesh

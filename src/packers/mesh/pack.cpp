@@ -13,6 +13,7 @@ namespace {
 using namespace mesh;
 
 bool finished(const Model& model, const State& state, const Feeder& feeder) {
+  if (pierced(model, state)) return true;
   if (model.stepping.duration > 0) return state.time >= model.stepping.duration - 0.5 * model.step;
   if (state.time >= model.stepping.max_time) return true;
   return feeder.done() && state.rest.at_rest;

@@ -69,10 +69,12 @@ void keep_quiet_pairs(const State& state, std::vector<BodyPair>& pairs) {
 }
 
 /// Carries records over to the new list; both lists ascend.
-void carry_over(Pairs& pairs, std::vector<BodyPair>& fresh) {
+void carry_over(Pairs& pairs, std::vector<BodyPair>& fresh, bool fields) {
   std::vector<double> look_at(fresh.size(), 0.0);
   std::vector<Load> load(fresh.size());
   std::vector<PairRecord> record(fresh.size());
+  std::vector<PatchRecords> patches(fields ? fresh.size() : 0);
+  std::vector<NearPoints> near(patches.size());
   std::size_t old = 0;
   for (std::size_t p = 0; p < fresh.size(); ++p) {
     while (old < pairs.pair.size() && pairs.pair[old] < fresh[p]) ++old;
@@ -80,11 +82,16 @@ void carry_over(Pairs& pairs, std::vector<BodyPair>& fresh) {
     look_at[p] = pairs.look_at[old];
     load[p] = pairs.load[old];
     record[p] = pairs.record[old];
+    if (!fields) continue;
+    patches[p] = pairs.patches[old];
+    std::swap(near[p], pairs.near[old]);
   }
   pairs.pair.swap(fresh);
   pairs.look_at.swap(look_at);
   pairs.load.swap(load);
   pairs.record.swap(record);
+  pairs.patches.swap(patches);
+  pairs.near.swap(near);
 }
 
 void index_pairs(const Bodies& bodies, Pairs& pairs) {
@@ -104,6 +111,17 @@ void index_pairs(const Bodies& bodies, Pairs& pairs) {
     const auto [a, b] = pairs.pair[p];
     pairs.entry[next[a]++] = 2 * p;
     if (!is_container(b)) pairs.entry[next[b]++] = 2 * p + 1;
+  }
+}
+
+/// How far the fastest of the awake goes in a step, beside the thinnest wall. Asked at each search: a body
+/// that has become much faster since has left its margin and asked for one.
+void note_strides(const Model& model, State& state) {
+  if (!(model.thinnest_wall > 0)) return;
+  const Bodies& b = state.bodies;
+  for (const std::uint32_t i : state.awake) {
+    const double speed = b.velocity[i].norm() + b.spin[i].norm() * b.bounding_radius[i];
+    state.ledger.stride = std::max(state.ledger.stride, speed * model.step / model.thinnest_wall);
   }
 }
 
@@ -164,13 +182,14 @@ void find_pairs(const Model& model, State& state) {
     if (b.motion[i] != Motion::airborne) present.push_back(i);
     if (b.motion[i] == Motion::awake) state.awake.push_back(i);
   }
+  note_strides(model, state);
   std::vector<BodyPair> fresh;
   NeighbourSearch search;
   search.find(present, b.position, reach, stands, fresh);
   add_container_pairs(model, state, fresh);
   keep_quiet_pairs(state, fresh);
   std::sort(fresh.begin(), fresh.end());
-  carry_over(state.pairs, fresh);
+  carry_over(state.pairs, fresh, uses_fields(model));
   index_pairs(b, state.pairs);
 }
 
