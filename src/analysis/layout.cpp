@@ -24,16 +24,6 @@ std::vector<double> edges_from_wall(double radius, double width) {
 
 }  // namespace
 
-Section middle_section(double top, double diameter, const AnalysisWish& wish) {
-  Section s{wish.from_diameters * diameter, wish.to_diameters * diameter, false};
-  if (s.to <= top) return s;
-  s.clipped = true;
-  s.from = std::min(s.from, top / 4);
-  s.to = top - 2 * diameter;
-  if (s.to - s.from < diameter) s = {top / 4, 3 * top / 4, true};
-  return s;
-}
-
 Layout lay_out(const GridFrame& frame, double top, double diameter, double radius, const AnalysisWish& wish) {
   Layout layout;
   layout.frame = frame;
@@ -53,13 +43,6 @@ Layout lay_out(const GridFrame& frame, double top, double diameter, double radiu
   layout.axial_edges = edges_along_z(frame, step);
   if (radius > 0) layout.ring_edges = edges_from_wall(radius, step * frame.pitch);
   return layout;
-}
-
-double pellet_diameter(const PackedBed& bed, const AnalysisWish& wish) {
-  if (wish.diameter > 0) return wish.diameter;
-  double volume = 0;
-  for (const Pellet& p : bed.pellets) volume += bed.shapes[p.shape]->volume * p.scale * p.scale * p.scale;
-  return bed.pellets.empty() ? 0 : std::cbrt(6 * volume / (kPi * static_cast<double>(bed.pellets.size())));
 }
 
 }  // namespace packbed

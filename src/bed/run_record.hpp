@@ -13,6 +13,12 @@ struct AuditLine {
   std::string finding;  // one sentence with the number, its limit and its unit
 };
 
+/// A bed at rest before the first tap (number 0), or after one.
+struct TapRecord {
+  std::int32_t number = 0;
+  double time_s = 0, packing_density = 0, top_m = 0;  // top: of the highest pellet's centre
+};
+
 struct RunRecord {
   std::string method, kernel, bed_hash;
   std::uint64_t seed = 0;
@@ -42,6 +48,7 @@ struct RunRecord {
   struct {
     double base_force_N = 0, side_shear_N = 0, weight_N = 0;
   } wall;
+  std::vector<TapRecord> taps;             // of a bed that was shaken
   std::map<std::string, double> counters;  // contacts evaluated, list rebuilds, wake-ups, ...
   std::vector<std::string> notes;          // what happened on the way that a user should know
 

@@ -94,11 +94,25 @@ struct LatticeRules {
   double max_angle = 10 * kPi / 180;  // of one rotation [rad]
   double max_sweep = 3;               // digicgp: way of the farthest point in one rotation, at most [cells]
   double rotation_share = 0.15;       // digipac: of a pellet's steps in which it also tries to rotate
+  bool turn_cells = false;    // rotations turn the cells themselves instead of the shape: pellets wear
   int interval = 0;           // steps that stand for Feed::interval; 0: what a pellet needs to fall clear
   int rest_window = 200;      // steps
   double rest_sinking = 0.5;  // mean sinking over rest_window under which a bed is at rest [cells]
   int max_steps = 200000;     // after which the run gives up waiting for rest
+  bool thin = false;          // pellets thinner than two cells are packed all the same
   double memory_MB = 1024;    // largest lattice
+};
+
+enum class ShakingKind { none, taps, vibration };
+
+/// What is done to a bed that has come to rest (packers/shaking.hpp).
+struct Shaking {
+  ShakingKind kind = ShakingKind::none;
+  int taps = 10;
+  double velocity = 0.3;    // upward, that each tap gives the bed [m/s]
+  double amplitude = 5e-4;  // of a vertical vibration [m]
+  double period = 0.03;     // [s]
+  double duration = 1;      // [s]
 };
 
 struct AnalysisWish {
@@ -134,6 +148,7 @@ struct Scene {
   Feed feed;
   Stepping stepping;
   LatticeRules lattice;
+  Shaking shaking;
   AnalysisWish analysis;
   OutputWish output;
   double overlap_limit =

@@ -258,7 +258,8 @@ void stepping_keys(Fields& f, CaseRecord& record) {
          r.duration);
 }
 
-void lattice_keys(Fields& f, LatticeRules& r) {
+void lattice_keys(Fields& f, CaseRecord& record) {
+  LatticeRules& r = record.lattice;
   f.real({.name = "voxel",
           .meaning = "edge of a cell of the lattice",
           .dimension = D::length,
@@ -282,6 +283,11 @@ void lattice_keys(Fields& f, LatticeRules& r) {
           .meaning = "digipac: of a pellet's steps in which it tries to rotate",
           .range = between(0, 1, "it is a probability")},
          r.rotation_share);
+  f.choice(
+      {.name = "rotation",
+       .meaning = "shape = cells are drawn anew from the shape; cells = the CT paper's own: the cells are "
+                  "turned and their number is kept, so that pellets wear (digipac, digicgp)"},
+      record.lattice_rotation, {"shape", "cells"});
   f.whole({.name = "interval",
            .meaning = "steps that stand for feed.interval; 0 = what a pellet needs to fall clear",
            .range = between(0, 1e6)},
@@ -297,9 +303,41 @@ void lattice_keys(Fields& f, LatticeRules& r) {
            .meaning = "after which the run gives up waiting for rest",
            .range = between(1, 2e9)},
           r.max_steps);
+  f.flag({.name = "thin", .meaning = "pack pellets whose walls are thinner than two voxels all the same"},
+         r.thin);
   f.real(
       {.name = "memory_MB", .meaning = "largest lattice; a larger one is refused", .range = between(1, 1e6)},
       r.memory_MB);
+}
+
+void shaking_keys(Fields& f, CaseRecord& r) {
+  f.choice({.name = "kind",
+            .meaning = "taps = the bed gets an upward velocity and settles, again and again; vibration = the "
+                       "container moves up and down as a sine; none"},
+           r.shaking_kind, {"none", "taps", "vibration"});
+  f.when(r.shaking_kind == "taps", "kind = \"taps\"", [&] {
+    f.whole({.name = "taps", .meaning = "how many", .range = between(1, 1e5)}, r.shaking.taps);
+    f.real({.name = "velocity",
+            .meaning = "upward, that a tap adds to every pellet's",
+            .dimension = D::speed,
+            .range = above_zero_to(100)},
+           r.shaking.velocity);
+  });
+  f.when(r.shaking_kind == "vibration", "kind = \"vibration\"", [&] {
+    f.real({.name = "amplitude",
+            .meaning = "of the container's way from its middle",
+            .dimension = D::length,
+            .range = above_zero_to(1)},
+           r.shaking.amplitude);
+    f.real(
+        {.name = "period", .meaning = "of the vibration", .dimension = D::time, .range = above_zero_to(10)},
+        r.shaking.period);
+    f.real({.name = "duration",
+            .meaning = "of the vibration; the bed settles after it",
+            .dimension = D::time,
+            .range = above_zero_to(3600)},
+           r.shaking.duration);
+  });
 }
 
 void analysis_keys(Fields& f, AnalysisWish& r) {
@@ -383,7 +421,9 @@ void visit_case(Fields& f, CaseRecord& r) {
   f.section("stepping", "How the packer moves bodies, and when it calls the bed at rest.",
             [&] { stepping_keys(f, r); });
   f.section("lattice", "How the lattice packers move pellets; the mesh packer does without.",
-            [&] { lattice_keys(f, r.lattice); });
+            [&] { lattice_keys(f, r); });
+  f.section("shaking", "What is done to the bed when it has come to rest (methods mesh and digidem).",
+            [&] { shaking_keys(f, r); });
   f.section("analysis", "What is measured of the bed.", [&] { analysis_keys(f, r.analysis); });
   f.section("output", "What is written.", [&] { output_keys(f, r.output); });
 }

@@ -67,6 +67,9 @@ struct CaseRecord {
   Stepping stepping;
   std::string integrator = "verlet";
   LatticeRules lattice;
+  std::string lattice_rotation = "shape";
+  Shaking shaking;
+  std::string shaking_kind = "none";
   AnalysisWish analysis;
   OutputWish output;
 };

@@ -243,6 +243,14 @@ std::vector<std::string> contradictions(const CaseRecord& r, const std::string& 
     if (contact->law == "hertz" && contact->stiffness)
       problems.add(fmt::format("{}.stiffness", key), "a stiffness with law = \"hertz\"",
                    "youngs_modulus or allowed_overlap", "Hertz's stiffness grows with the overlap");
+  if (r.lattice_rotation == "cells" && r.method == "digidem")
+    problems.add("lattice.rotation", "\"cells\" with method = \"digidem\"", "\"shape\"",
+                 "digidem follows its pellets' own rotation: take digipac or digicgp");
+  if (r.shaking_kind != "none" && r.method != "mesh" && r.method != "digidem")
+    problems.add(
+        "shaking.kind", fmt::format("\"{}\" with method = \"{}\"", r.shaking_kind, r.method),
+        "method = \"mesh\" or \"digidem\"",
+        "pellets of the other methods have no velocity that a tap could change, or are not shaken yet");
   if (r.analysis.to_diameters <= r.analysis.from_diameters)
     problems.add("analysis.to_diameters", fmt::format("{}", r.analysis.to_diameters),
                  fmt::format("more than from_diameters, {}", r.analysis.from_diameters));
@@ -263,6 +271,11 @@ Scene make_scene(const CaseRecord& r, const std::string& case_file, std::vector<
   scene.stepping = r.stepping;
   scene.stepping.gear = r.integrator == "gear";
   scene.lattice = r.lattice;
+  scene.lattice.turn_cells = r.lattice_rotation == "cells";
+  scene.shaking = r.shaking;
+  scene.shaking.kind = r.shaking_kind == "taps"        ? ShakingKind::taps
+                       : r.shaking_kind == "vibration" ? ShakingKind::vibration
+                                                       : ShakingKind::none;
   scene.analysis = r.analysis;
   scene.output = r.output;
   scene.feed = make_feed(r, problems);

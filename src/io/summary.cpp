@@ -92,6 +92,16 @@ Json sizes_of(const AnalysisResult& analysis) {
   return rows;
 }
 
+Json taps_of(const RunRecord& r) {
+  Json taps = Json::array();
+  for (const TapRecord& t : r.taps)
+    taps.push_back({{"tap", t.number},
+                    {"time_s", t.time_s},
+                    {"packing_density", t.packing_density},
+                    {"top_m", t.top_m}});
+  return taps;
+}
+
 Json bed_of(const std::optional<AnalysisResult>& analysis) {
   Json bed = {{"height_m", nullptr},   {"packing_density", nullptr}, {"exact_packing_density", nullptr},
               {"axial_sd", nullptr},   {"z_range_m", nullptr},       {"voxel_m", nullptr},
@@ -171,6 +181,7 @@ std::string summary_json(const Scene& scene, const RunRecord& r,
                         {"overlap", overlap_of(r)},
                         {"energy", energy_of(r)},
                         {"wall", wall_of(r)},
+                        {"taps", taps_of(r)},
                         {"bed", bed_of(analysis)},
                         {"container", container_of(scene)},
                         {"shapes", shapes_of(scene)},
@@ -189,15 +200,22 @@ std::string mixture_json(const AnalysisResult& a) {
 }
 
 std::string record_json(const RunRecord& r) {
-  const Json record = {
-      {"method", r.method},       {"kernel", r.kernel},
-      {"bed_hash", r.bed_hash},   {"seed", r.seed},
-      {"threads", r.threads},     {"pellets", pellets_of(r)},
-      {"at_rest", r.at_rest},     {"audit_lines", audit_lines(r)},
-      {"time", time_of(r)},       {"memory", {{"peak_rss_bytes", r.peak_rss_bytes}}},
-      {"overlap", overlap_of(r)}, {"energy", energy_of(r)},
-      {"wall", wall_of(r)},       {"counters", r.counters.empty() ? Json::object() : Json(r.counters)},
-      {"notes", r.notes}};
+  const Json record = {{"method", r.method},
+                       {"kernel", r.kernel},
+                       {"bed_hash", r.bed_hash},
+                       {"seed", r.seed},
+                       {"threads", r.threads},
+                       {"pellets", pellets_of(r)},
+                       {"at_rest", r.at_rest},
+                       {"audit_lines", audit_lines(r)},
+                       {"time", time_of(r)},
+                       {"memory", {{"peak_rss_bytes", r.peak_rss_bytes}}},
+                       {"overlap", overlap_of(r)},
+                       {"energy", energy_of(r)},
+                       {"taps", taps_of(r)},
+                       {"wall", wall_of(r)},
+                       {"counters", r.counters.empty() ? Json::object() : Json(r.counters)},
+                       {"notes", r.notes}};
   return record.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -253,6 +271,8 @@ RunRecord record_from_json(const std::string& text) try {
   read_time(j.at("time"), r);
   r.peak_rss_bytes = j.at("memory").at("peak_rss_bytes");
   read_physics(j, r);
+  for (const Json& t : j.value("taps", Json::array()))
+    r.taps.push_back({t.at("tap"), number(t, "time_s"), number(t, "packing_density"), number(t, "top_m")});
   r.counters = numbers(j.at("counters"));
   r.notes = j.at("notes").get<std::vector<std::string>>();
   return r;

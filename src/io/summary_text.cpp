@@ -147,7 +147,14 @@ std::string summary_text(const Scene& scene, const RunRecord& r,
     if (const std::string mixture = mixture_line(*analysis); !mixture.empty())
       out += entry("mixture", mixture);
   }
-  out += run_lines(r) + audit_text(r);
+  out += run_lines(r);
+  if (!r.taps.empty()) {
+    std::string densities;
+    for (const TapRecord& t : r.taps)
+      densities += fmt::format("{}{:.4f}", densities.empty() ? "" : ", ", t.packing_density);
+    out += entry("shaken", "packing density at rest, first before: " + densities);
+  }
+  out += audit_text(r);
   for (const std::string& note : r.notes) out += entry("note", note);
   if (!folder.empty()) out += entry("results", folder);
   if (!report_path.empty()) out += entry("report", report_path);

@@ -103,6 +103,8 @@ Box box_of(const BitBlock& block) {
   return box;
 }
 
+}  // namespace
+
 Stamp stamp_of(const BitBlock& block, int middle) {
   const Box box = box_of(block);
   Stamp stamp;
@@ -127,8 +129,6 @@ Stamp stamp_of(const BitBlock& block, int middle) {
   stamp.count = block.count >= 0 ? block.count : count_bits(stamp.bits.data(), stamp.bits.size());
   return stamp;
 }
-
-}  // namespace
 
 StampMaker::StampMaker(double pitch, double largest)
     : frame_(frame_round(pitch, largest)), middle_(frame_.size[0] / 2), rasteriser_(frame_) {}

@@ -30,6 +30,9 @@ struct Stamp {
   std::uint64_t* data() { return bits.data() + kPad; }
 };
 
+/// The bits of a block whose cell `middle`, along each axis, is the pellet's.
+Stamp stamp_of(const BitBlock& block, int middle);
+
 /// Makes stamps of one lattice; keeps its memory between calls (one a thread).
 class StampMaker {
  public:

@@ -109,6 +109,26 @@ TEST(DigiPac, ReboundSetsHowOftenAPelletRises) {
   EXPECT_NEAR(fallen(1), 0, 4 * std::sqrt(60.0));
 }
 
+// The paper's own rotation: cells are turned. No cell is shared and none is lost, but pellets wear, and a run
+// that is continued knows how.
+TEST(DigiPac, TurnsCellsAndContinuesWithWornPellets) {
+  Scene s = pour("digipac");
+  s.lattice.turn_cells = true;
+  s.feed.count = 20;
+  const PackResult whole = pack_lattice(s, {});
+  EXPECT_EQ(audit_of(whole.record), "");
+  EXPECT_NE(whole.record.notes.at(0).find("not where its shape has them"), std::string::npos);
+  s.output.trajectory_interval = 0.05;
+  std::atomic<bool> stop{false};
+  std::vector<std::byte> state;
+  Watch watch;
+  watch.stop = &stop;
+  watch.snapshot = [&](const Snapshot& shot) { stop = shot.time > 0.12; };
+  watch.checkpoint = [&](std::span<const std::byte> bytes) { state.assign(bytes.begin(), bytes.end()); };
+  ASSERT_TRUE(pack_lattice(s, watch).stopped);
+  EXPECT_EQ(bed_hash(pack_lattice(s, {}, state).bed), bed_hash(whole.bed));
+}
+
 // Both pellets of a collision feel it: a ball on the floor, which its own collisions only push up, is pushed
 // aside by one that comes down beside its top, away from it; and this one rolls off to the other side.
 TEST(DigiCgp, APelletIsPushedAsideByTheOneThatLandsOnIt) {
@@ -169,6 +189,16 @@ TEST(Lattice, RefusesAPelletThinnerThanTwoVoxels) {
   s.lattice.voxel = 1.5e-3;
   s.lattice.max_steps = 10;
   EXPECT_EQ(refusal(s), "");
+}
+
+TEST(Lattice, PacksAThinnerPelletWhenAskedToAndSaysSo) {
+  Scene s = pour("digipac");
+  s.lattice.voxel = 1.6e-3;
+  s.lattice.thin = true;
+  s.lattice.max_steps = 10;
+  const std::vector<std::string> notes = pack_lattice(s, {}).record.notes;
+  ASSERT_FALSE(notes.empty());
+  EXPECT_NE(notes[0].find("1.5 mm would do"), std::string::npos) << notes[0];
 }
 
 TEST(Lattice, RefusesALatticeLargerThanTheMemoryAndNamesAVoxelThatFits) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "bed/voxelise.hpp"
+#include "lattice/digital_rotation.hpp"
 
 namespace packbed::lattice {
 namespace {
@@ -26,11 +27,14 @@ void audit_cells(RunRecord& record, const Model& model, State& state) {
   Occupancy& lattice = state.lattice;
   for (std::size_t i = 0; i < state.size(); ++i) lattice.flip(state.stamp[i], state.cell[i]);
   const std::int64_t left = lattice.open_cells() - lattice.count_open();
+  const bool may_wear = model.rules.turn_cells;
   std::int64_t shared = 0, changed = 0;
-  double mean = 0, worst = 0;
+  double mean = 0, worst = 0, worn = 0;
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Shape& shape = *model.kind(state.kind[i]).shape;
-    const Stamp stamp = maker.make(shape, state.scale[i], state.rotation[i], state.phase[i]);
+    const Stamp drawn = maker.make(shape, state.scale[i], state.rotation[i], state.phase[i]);
+    const Stamp& stamp = may_wear ? state.stamp[i] : drawn;
+    if (may_wear) worn += wear(stamp, drawn) / static_cast<double>(state.size());
     changed += stamp.bits != state.stamp[i].bits;
     shared += lattice.shared(stamp, state.cell[i]);
     lattice.write(stamp, state.cell[i]);
@@ -45,6 +49,11 @@ void audit_cells(RunRecord& record, const Model& model, State& state) {
       fmt::format("{} shared by two pellets or with the wall, {} pellets deformed (limits 0); volume of the "
                   "pellets in cells {:+.3f} % in the mean, at most {:.2f} % off",
                   shared, changed, 100 * mean, 100 * worst));
+  if (may_wear)
+    record.notes.push_back(
+        fmt::format("lattice.rotation = \"cells\": {:.1f} % of a pellet's cells are not where its shape has "
+                    "them, in the mean",
+                    100 * worn));
 }
 
 void audit_rest(RunRecord& record, const Model& model, const State& state) {
@@ -82,6 +91,7 @@ void fill_record(RunRecord& record, const Model& model, State& state, const Feed
   record.time.steps = state.steps;
   record.time.step_s = model.step_time;
   record.time.simulated_s = time_of(model, state);
+  record.notes = model.notes;
   audit_pellets(record, state, feeder);
   audit_cells(record, model, state);
   audit_rest(record, model, state);

@@ -16,18 +16,34 @@ void visit(Archive& io, S& s) {
   io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.tally);
 }
 
+/// Worn pellets cannot be drawn anew.
+template <class Archive, class S>
+void visit_stamp(Archive& io, S& s) {
+  io(s.low), io(s.size), io(s.words), io(s.rows), io(s.count), io(s.bits);
+}
+
 }  // namespace
 
-std::vector<std::byte> save(const State& state, const Feeder& feeder) {
-  return checkpoint_of(kFormat, feeder, [&](ArchiveWriter& io) { visit(io, state); });
+std::vector<std::byte> save(const Model& model, const State& state, const Feeder& feeder) {
+  return checkpoint_of(kFormat, feeder, [&](ArchiveWriter& io) {
+    visit(io, state);
+    if (model.rules.turn_cells)
+      for (const Stamp& stamp : state.stamp) visit_stamp(io, stamp);
+  });
 }
 
 void restore(std::span<const std::byte> bytes, const Model& model, State& state, Feeder& feeder) {
-  restore_checkpoint(bytes, "lattice packing", kFormat, feeder, [&](ArchiveReader& io) { visit(io, state); });
+  restore_checkpoint(bytes, "lattice packing", kFormat, feeder, [&](ArchiveReader& io) {
+    visit(io, state);
+    if (!model.rules.turn_cells) return;
+    state.stamp.resize(state.size());
+    for (Stamp& stamp : state.stamp) visit_stamp(io, stamp);
+  });
   StampMaker maker(model.frame.pitch, model.largest);
   for (std::size_t i = 0; i < state.size(); ++i) {
-    state.stamp.push_back(
-        maker.make(*model.kind(state.kind[i]).shape, state.scale[i], state.rotation[i], state.phase[i]));
+    if (!model.rules.turn_cells)
+      state.stamp.push_back(
+          maker.make(*model.kind(state.kind[i]).shape, state.scale[i], state.rotation[i], state.phase[i]));
     state.lattice.flip(state.stamp[i], state.cell[i]);
   }
 }

@@ -16,6 +16,7 @@
 #include "lattice/shared_cells.hpp"
 #include "packers/feed.hpp"
 #include "packers/lattice/model.hpp"
+#include "packers/shaking.hpp"
 
 namespace packbed::lattice {
 
@@ -74,6 +75,7 @@ struct DemState {
   std::int64_t steps = 0, snapshots = 0, searches = 0;
   double rest_since = -1, rest_speed = 0, rest_drift = 0;
   std::vector<Vec3> rest_anchor;
+  ShakeState shake;
   double peak = 0;  // deepest touch of the run [m]
   double wall_s = 0, cpu_s = 0;
 
@@ -87,6 +89,7 @@ void dem_find_pairs(const DemModel& model, DemState& state);
 void dem_touch(const DemModel& model, DemState& state);
 void dem_move(const DemModel& model, DemState& state);
 void dem_rest(const DemModel& model, DemState& state, const Feeder& feeder);
+void dem_shake(const DemModel& model, DemState& state);
 
 /// Makes the stamp of pellet i at its present rotation and cell.
 void redraw(const DemModel& model, DemState& state, std::size_t i, StampMaker& maker);

@@ -1,4 +1,4 @@
-// Phases move and rest of digidem.
+// Phases move, rest and shake of digidem.
 #include <algorithm>
 #include <cmath>
 
@@ -31,11 +31,14 @@ void follow(const DemModel& model, DemState& state, std::size_t i, StampMaker& m
 
 void dem_move(const DemModel& model, DemState& state) {
   Bodies& b = state.bodies;
+  const Scene& scene = *model.base.scene;
+  const Vec3 gravity = model.gravity + shaking_acceleration(scene.shaking, -model.gravity.normalized(),
+                                                            state.shake, state.time);
   parallel_for(state.size(), 64, [&](std::size_t begin, std::size_t end) {
     StampMaker maker(model.base.frame.pitch, model.base.largest);
     for (std::size_t i = begin; i < end; ++i) {
       if (b.motion[i] == Motion::fixed) continue;
-      kick(b, i, model.gravity, model.step);  // two halves in one: velocities are those between two steps
+      kick(b, i, gravity, model.step);  // two halves in one: velocities are those between two steps
       drift(b, i, model.step);
       follow(model, state, i, maker);
     }
@@ -52,7 +55,7 @@ double kinetic_speed(const DemState& state) {
 
 void dem_rest(const DemModel& model, DemState& state, const Feeder& feeder) {
   const Stepping& s = model.base.scene->stepping;
-  if (!feeder.done()) {
+  if (!feeder.done() || vibrates(state.shake, state.time)) {
     state.rest_since = -1;
     return;
   }
@@ -67,6 +70,16 @@ void dem_rest(const DemModel& model, DemState& state, const Feeder& feeder) {
   }
   state.rest_anchor = x;
   state.rest_since = state.time;
+}
+
+void dem_shake(const DemModel& model, DemState& state) {
+  if (!state.at_rest) return;
+  const auto push = next_shake(*model.base.scene, state.shake, state.time, pellets_of(state));
+  if (!push) return;
+  for (std::size_t i = 0; i < state.size(); ++i)
+    if (state.bodies.motion[i] != Motion::fixed) state.bodies.velocity[i] += *push;
+  state.at_rest = 0;
+  state.rest_since = -1;
 }
 
 }  // namespace packbed::lattice

@@ -28,6 +28,7 @@ void visit(Archive& io, S& s) {
   io(s.drawn), io(s.cell), io(s.offset), io(s.turn), io(s.phase), io(s.version), io(s.touches),
       io(s.listed_at), io(s.search_due), io(s.at_rest), io(s.waited);
   io(s.time), io(s.steps), io(s.snapshots), io(s.searches);
+  visit_shake(io, s.shake);
   io(s.rest_since), io(s.rest_speed), io(s.rest_drift), io(s.rest_anchor), io(s.peak), io(s.wall_s),
       io(s.cpu_s);
 }
@@ -40,8 +41,8 @@ void restore(std::span<const std::byte> bytes, const DemModel& model, DemState& 
                                      state.drawn[i], state.phase[i]));
 }
 
-enum Phase : std::size_t { kFeed, kFindPairs, kTouch, kMove, kRest, kPhases };
-constexpr std::array<const char*, kPhases> kPhaseName{"feed", "find_pairs", "touch", "move", "rest"};
+enum Phase : std::size_t { kFeed, kFindPairs, kTouch, kMove, kRest, kShake, kPhases };
+constexpr std::array<const char*, kPhases> kPhaseName{"feed", "find_pairs", "touch", "move", "rest", "shake"};
 
 struct Run {
   const DemModel& model;
@@ -56,6 +57,7 @@ struct Run {
     dem_touch(model, state), add_phase(phases[kTouch], last);
     dem_move(model, state), add_phase(phases[kMove], last);
     dem_rest(model, state, feeder), add_phase(phases[kRest], last);
+    dem_shake(model, state), add_phase(phases[kShake], last);
   }
   bool ended() const {
     const Stepping& s = model.base.scene->stepping;
@@ -167,6 +169,8 @@ PackResult pack_digidem(const Scene& scene, const Watch& watch, std::span<const 
                      {"searches", static_cast<double>(state.searches)},
                      {"touches", static_cast<double>(state.touches.size())},
                      {"voxel_m", model.base.frame.pitch}};
+  record.taps = state.shake.found;
+  record.notes = model.base.notes;
   if (state.waited) record.notes.push_back("feeding had to wait for room above the bed");
   record.bed_hash = bed_hash(result.bed);
   record.threads = threads();

@@ -23,15 +23,24 @@ double round_down(double v) {
   return std::floor(v / unit * (1 + 1e-9)) * unit;
 }
 
-void check_thickness(const Scene& scene, double voxel) {
+/// A wall of less than two voxels has holes on the lattice, which others may reach through: refused, or noted
+/// where the case asks for it.
+void check_thickness(const Scene& scene, double voxel, std::vector<std::string>& notes) {
   for (const PelletKind& kind : scene.pellets) {
     const double thin = kind.shape->smallest_thickness * smallest_scale(kind.sizes);
-    if (thin < 2 * voxel * (1 - 1e-9))
-      throw InputError(
-          "lattice.voxel",
-          fmt::format("{} for {}, whose thinnest part is {}", length(voxel), kind.shape->name, length(thin)),
-          fmt::format("at most {}: two voxels over the thinnest part", length(round_down(thin / 2))),
-          fmt::format("lattice.voxel = \"{}\"", length(round_down(thin / 2))));
+    if (thin >= 2 * voxel * (1 - 1e-9)) continue;
+    const std::string found =
+        fmt::format("{} for {}, whose thinnest part is {}", length(voxel), kind.shape->name, length(thin));
+    const std::string would_do = length(round_down(thin / 2));
+    if (!scene.lattice.thin)
+      throw InputError("lattice.voxel", found,
+                       fmt::format("at most {}: two voxels over the thinnest part", would_do),
+                       fmt::format("lattice.voxel = \"{}\", or lattice.thin = true", would_do));
+    notes.push_back(
+        fmt::format("lattice.thin: a voxel of {}; walls of less than two voxels have holes, and pellets may "
+                    "hook into each "
+                    "other ({} would do)",
+                    found, would_do));
   }
 }
 
@@ -133,7 +142,7 @@ Model make_model(const Scene& scene) {
   for (const PelletKind& kind : scene.pellets)
     model.largest = std::max(model.largest, kind.shape->bounding_radius * largest_scale(kind.sizes));
   model.rules = settled(scene, model.largest);
-  check_thickness(scene, model.rules.voxel);
+  check_thickness(scene, model.rules.voxel, model.notes);
   model.frame = lattice_frame(scene, model.rules.voxel, model.largest);
   check_memory(scene, model.frame);
   model.space = open_space(scene, model.frame);

@@ -18,9 +18,10 @@ struct Model {
   GridFrame frame;     // cells of the lattice; z as high as pellets enter
   VoxelGrid space;     // open cells of the container; above its rim as in `rim`
   int rim = 0;
-  double largest = 0;    // bounding radius of the largest pellet [m]
-  double step_time = 0;  // that one step stands for in the feed [s]
-  int slab = 0;          // height of the slabs that share no cell with the one after the next [cells]
+  double largest = 0;              // bounding radius of the largest pellet [m]
+  double step_time = 0;            // that one step stands for in the feed [s]
+  std::vector<std::string> notes;  // what the user should know of this scene on a lattice
+  int slab = 0;  // height of the slabs that share no cell with the one after the next [cells]
 
   const PelletKind& kind(std::uint32_t k) const { return scene->pellets[k]; }
 };

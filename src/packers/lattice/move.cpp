@@ -1,6 +1,7 @@
 // Phase move: every pellet in turn. Pellets of one slab of height touch no cell of the slab after the next,
 // so that every other slab may be worked on at the same time; within a slab the pellets take turns in the
 // order in which they were fed. Neither depends on the number of threads.
+#include "lattice/digital_rotation.hpp"
 #include "math/threads.hpp"
 #include "math/trig.hpp"
 #include "packers/lattice/step.hpp"
@@ -64,8 +65,9 @@ bool try_rotation(const Model& model, State& state, std::size_t i, const Vec3& a
   sincos_poly(0.5 * angle, sine, cosine);
   const Quat turn(cosine, sine * axis.x(), sine * axis.y(), sine * axis.z());
   const Quat rotation = (turn * state.rotation[i]).normalized();
-  Vec3 phase;
-  Stamp stamp = maker.make_true(shape, state.scale[i], rotation, phase);
+  Vec3 phase = state.phase[i];
+  Stamp stamp = model.rules.turn_cells ? turn_cells(state.stamp[i], phase, turn)
+                                       : maker.make_true(shape, state.scale[i], rotation, phase);
   state.lattice.flip(state.stamp[i], state.cell[i]);
   const bool free = !state.lattice.hits(stamp, state.cell[i]);
   if (free) {

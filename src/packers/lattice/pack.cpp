@@ -34,7 +34,7 @@ struct Run {
     pellets = pellets_of(model, state);
     return still_of(time(), pellets);
   }
-  std::vector<std::byte> save() const { return lattice::save(state, feeder); }
+  std::vector<std::byte> save() const { return lattice::save(model, state, feeder); }
   Progress progress() const {
     Progress p;
     p.simulated_s = time();

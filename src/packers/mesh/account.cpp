@@ -8,19 +8,6 @@
 namespace packbed::mesh {
 namespace {
 
-Pellet pellet_of(const State& state, std::size_t i) {
-  const Bodies& b = state.bodies;
-  Pellet p;
-  p.id = static_cast<std::uint32_t>(i);
-  p.shape = b.kind[i];
-  p.scale = b.scale[i];
-  p.pose = {b.position[i], b.rotation[i]};
-  p.velocity = b.velocity[i];
-  p.spin = spin_of(b, i);  // bodies.spin is of the middle of the step
-  p.fixed = b.motion[i] == Motion::fixed;
-  return p;
-}
-
 void audit_thin_walls(RunRecord& record, const Model& model, const State& state) {
   if (!(model.thinnest_wall > 0)) return;
   const Ledger& l = state.ledger;
@@ -56,6 +43,19 @@ void audit_walls(RunRecord& record, const Model& model, const State& state) {
 }
 
 }  // namespace
+
+Pellet pellet_of(const State& state, std::size_t i) {
+  const Bodies& b = state.bodies;
+  Pellet p;
+  p.id = static_cast<std::uint32_t>(i);
+  p.shape = b.kind[i];
+  p.scale = b.scale[i];
+  p.pose = {b.position[i], b.rotation[i]};
+  p.velocity = b.velocity[i];
+  p.spin = spin_of(b, i);  // bodies.spin is of the middle of the step
+  p.fixed = b.motion[i] == Motion::fixed;
+  return p;
+}
 
 Energy energy_of(const Model& model, const State& state) {
   const Bodies& b = state.bodies;
@@ -135,6 +135,7 @@ void fill_record(RunRecord& record, const Scene& scene, const Model& model, cons
                      {"sleeps", l.sleeps},
                      {"stiffness_pellet_N_per_m", model.pellet_law.stiffness},
                      {"stiffness_wall_N_per_m", model.wall_law.stiffness}};
+  record.taps = state.shake.found;
   if (state.waited) record.notes.push_back("feeding had to wait for room above the bed");
 }
 

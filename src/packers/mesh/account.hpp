@@ -10,6 +10,8 @@
 
 namespace packbed::mesh {
 
+Pellet pellet_of(const State& state, std::size_t i);
+
 /// The books now. Call with airborne bodies brought to the present time and accounts settled.
 Energy energy_of(const Model& model, const State& state);
 

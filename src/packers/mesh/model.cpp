@@ -174,6 +174,7 @@ Model make_model(const Scene& scene) {
   model.wall_law = find_law(scene, scene.wall_contact, model.kinds);
   model.thinnest_wall = find_thinnest_wall(model.kinds);
   model.stepping = scene.stepping;
+  model.shaking = scene.shaking;
   model.size = std::numeric_limits<double>::infinity();
   double largest = 0;
   for (const Kind& kind : model.kinds) {

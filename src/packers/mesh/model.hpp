@@ -15,6 +15,7 @@
 #include "dynamics/bodies.hpp"
 #include "dynamics/neighbours.hpp"
 #include "packers/rest_watch.hpp"
+#include "packers/shaking.hpp"
 
 namespace packbed::mesh {
 
@@ -52,6 +53,7 @@ struct Model {
   double size = 0;  // of the smallest pellet, the yardstick of rest and sleep [m]
   Stepping stepping;
   double thinnest_wall = 0;  // of kinds that are not convex, which something may be pressed through [m]
+  Shaking shaking;
   bool may_fly = false;      // fed bodies may leap: there is gravity and nothing stands above the bed
   double expected_time = 0;  // of the whole run, for the progress line [s]
 };
@@ -156,6 +158,7 @@ struct State {
   double next_landing = 0;           // [s]
   std::uint8_t search_due = 1;
   RestWatch rest;
+  ShakeState shake;
   std::uint8_t last_watch = 0;   // windows so far with everything awake, to see whether it stays at rest
   std::uint8_t waited = 0;       // feeding has had to wait for room
   std::int64_t snapshots = 0;    // taken so far

@@ -54,6 +54,7 @@ PackResult pack_mesh(const Scene& scene, const Watch& watch, std::span<const std
   Run run{model, state, feeder};
   while (!finished(model, state, feeder) && !result.stopped) {
     step(model, state, feeder, times);
+    if (feeder.done() && state.rest.at_rest) shake(scene, state);
     watcher.look(run);
     result.stopped = watcher.stop_asked();
   }

@@ -13,6 +13,7 @@ constexpr std::uint8_t kWatchedWindows = 5;
 
 void rest(const Model& model, State& state, const Feeder& feeder) {
   RestWatch& watch = state.rest;
+  if (vibrates(state.shake, state.time)) watch.since = state.time;
   if (!feeder.done() || state.time - watch.since < model.stepping.rest_window) return;
   const Bodies& b = state.bodies;
   RestLook look(watch);

@@ -31,20 +31,35 @@ void begin(const Model& model, State& state, Feeder& feeder) {
   for (const PairRecord& r : state.pairs.record) state.ledger.input += r.elastic;
 }
 
+namespace {
+
+/// What bodies feel beside their contacts at a time, in the frame of the container [m/s2].
+Vec3 pull_at(const Model& model, const State& state, double time) {
+  return model.gravity + shaking_acceleration(model.shaking, model.up, state.shake, time);
+}
+
+}  // namespace
+
 void kick_drift(const Model& model, State& state) {
   Bodies& bodies = state.bodies;
+  const Vec3 pull = pull_at(model, state, state.time);
   std::atomic<bool> left_margin{false};
   parallel_for(state.awake.size(), 128, [&](std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) {
       const std::size_t i = state.awake[k];
-      kick(bodies, i, model.gravity, 0.5 * model.step);
+      kick(bodies, i, pull, 0.5 * model.step);
       drift(bodies, i, model.step);
-      look_ahead(bodies, i, model.gravity, 0.5 * model.step);
+      look_ahead(bodies, i, pull, 0.5 * model.step);
       const double margin = state.margin[i];
       if ((bodies.position[i] - state.listed_at[i]).squaredNorm() > margin * margin)
         left_margin.store(true, std::memory_order_relaxed);
     }
   });
+  if (vibrates(state.shake, state.time)) {  // work of the shaking container
+    const Vec3 mean = 0.5 * (pull + pull_at(model, state, state.time + model.step)) - model.gravity;
+    for (const std::uint32_t i : state.awake)
+      state.ledger.input += bodies.mass[i] * model.step * mean.dot(bodies.velocity[i]);
+  }
   ++state.steps;
   state.ledger.awake += static_cast<double>(state.awake.size());
   state.time += model.step;
@@ -70,11 +85,12 @@ void gather(const State& state, std::size_t i, Vec3& force, Vec3& torque) {
 
 void gather_kick(const Model& model, State& state) {
   Bodies& bodies = state.bodies;
+  const Vec3 pull = pull_at(model, state, state.time);
   parallel_for(state.awake.size(), 128, [&](std::size_t from, std::size_t to) {
     for (std::size_t k = from; k < to; ++k) {
       const std::size_t i = state.awake[k];
       gather(state, i, bodies.force[i], bodies.torque[i]);
-      kick(bodies, i, model.gravity, 0.5 * model.step);
+      kick(bodies, i, pull, 0.5 * model.step);
     }
   });
 }

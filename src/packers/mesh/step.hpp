@@ -28,6 +28,9 @@ void gather_kick(const Model& model, State& state);
 void sleep(const Model& model, State& state);
 void rest(const Model& model, State& state, const Feeder& feeder);
 
+/// Gives a bed at rest what the scene's shaking says next; false when there is no more.
+bool shake(const Scene& scene, State& state);
+
 /// Ends all sleep.
 void wake_all(State& state);
 /// Brings airborne bodies to the present time.
