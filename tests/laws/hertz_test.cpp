@@ -2,6 +2,8 @@
 // Chung & Ooi (Granular Matter 13, 2011).
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "laws/law.hpp"
 
 namespace packbed {
@@ -199,7 +201,9 @@ TEST(Dissipation, GivesTheRestitutionOfItsDashpot) {
       const double want = hertz_law ? integrated(modulus * std::sqrt(r), 1.5, gamma * m, m, speed)
                                     : restitution(gamma / (2 * std::sqrt(modulus * r / m)));
       EXPECT_NEAR(course.end().velocity.z() / speed, want, 0.002) << hertz_law << ' ' << gamma;
-      if (!hertz_law) EXPECT_NEAR(want, integrated(modulus * r, 1, gamma * m, m, speed), 1e-4);
+      if (!hertz_law) {
+        EXPECT_NEAR(want, integrated(modulus * r, 1, gamma * m, m, speed), 1e-4);
+      }
     }
 }
 

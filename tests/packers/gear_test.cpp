@@ -23,10 +23,10 @@ Errors after_a_radian(int steps) {
   s.id = s.kind = {0};
   s.scale = {1};
   s.place = {{1, 0, 0, 1}};
-  s.velocity = s.ahead = {{0, 0, 0, 1}};
+  s.velocity = {{0, 0, 0, 1}};
   s.spin = {{0, 0, 1, 1}};
   s.listed_at = {{1, 0, 0, 100}};
-  s.force = s.torque = {{}};
+  s.force = s.twist = {{}};
   state.slot_first = {0, 0};
   begin_gear(model, state);
   // derivatives of cos t at 0: 0, -1, 0, 1, 0; of exp(-t): -1, 1, -1, 1
@@ -41,7 +41,7 @@ Errors after_a_radian(int steps) {
   for (int i = 0; i < steps; ++i) {
     predict(model, state);
     s.force[0] = {-s.place[0].x, 0, 0, 0};
-    s.torque[0] = {0, 0, -state.gear.spin_ahead[0].z, 0};
+    s.twist[0] = {0, 0, state.gear.spin_ahead[0].z, 0};  // torque over minus the radius, 1
     correct(model, state);
   }
   return {std::abs(s.place[0].x - std::cos(1.0)), std::abs(s.spin[0].z - std::exp(-1.0))};
@@ -67,10 +67,10 @@ TEST(Gear, FallsExactly) {
   s.id = s.kind = {0};
   s.scale = {1};
   s.place = {{0, 0, 5, 1}};
-  s.velocity = s.ahead = {{1, 0, 2, 1}};
+  s.velocity = {{1, 0, 2, 1}};
   s.spin = {{0, 0, 0, 1}};
   s.listed_at = {{0, 0, 5, 100}};
-  s.force = s.torque = {{}};
+  s.force = s.twist = {{}};
   state.slot_first = {0, 0};
   begin_gear(model, state);
   for (int i = 0; i < 100; ++i) {
