@@ -123,8 +123,9 @@ TEST(Sizes, PelletsOfALawFollowItWithinOneOfThemAndHaveItsVolume) {
           EXPECT_GE(d, sizes.smallest * (1 - 1e-9));
           EXPECT_LE(d, sizes.largest * (1 + 1e-9));
           const double larger = static_cast<double>(i) / n;  // share of the pellets that are larger
-          if (i % (n / 5 + 1) == 0)
+          if (i % (n / 5 + 1) == 0) {
             EXPECT_NEAR(share_under(sizes, d, SizeBasis::number), 1 - larger - 0.5 / n, 0.5 / n + 1e-6);
+          }
           volume += cube(d);
           last = classes[i].scale;
         }
