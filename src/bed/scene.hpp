@@ -41,6 +41,13 @@ struct ContactLaw {
   double tangential_stiffness = 0;  // over the normal one; 0: Mindlin's with youngs_modulus, else 2/7
 };
 
+/// How finely the field kernel sees bodies (docs/kernels.md: what finer costs and gives).
+struct FieldAccuracy {
+  double points = 14;  // surface points across the diameter of the sphere of equal volume
+  double grid = 56;  // cells of a mesh's depth field across the same, or 1/7 as many across its thinnest wall
+  double memory_MB = 256;  // largest depth field
+};
+
 enum class FeedKind { layers, pour, placed, lattice };
 
 /// A pellet that the case puts where it wants it.
@@ -145,6 +152,7 @@ struct Scene {
   Container container;
   Vec3 gravity{0, 0, -9.80665};  // [m/s2]
   ContactLaw pellet_contact, wall_contact;
+  FieldAccuracy field;
   Feed feed;
   Stepping stepping;
   LatticeRules lattice;

@@ -42,8 +42,7 @@ FieldBody make_field_body(const Shape& shape, const FieldOptions& options) {
           "shape " + shape.name,
           fmt::format("a depth field of {:.0f} MB, of cells of {:.3g} mm for a thinnest wall of {:.3g} mm",
                       bytes / 1e6, grid * 1e3, shape.smallest_thickness * 1e3),
-          fmt::format("{:.0f} MB", options.memory_bytes / 1e6),
-          "thicken its thinnest wall, or pack a smaller shape with walls as thick");
+          fmt::format("{:.0f} MB", options.memory_bytes / 1e6), "raise field.memory_MB or lower field.grid");
     return DepthField::of_mesh(shape.surface, grid);
   };
   FieldBody body{sample_surface(shape, spacing), make_field(), size_radius(shape)};
@@ -51,7 +50,7 @@ FieldBody make_field_body(const Shape& shape, const FieldOptions& options) {
     throw InputError(
         "shape " + shape.name,
         fmt::format("{} surface points at a spacing of {:.4g} mm", body.points.size(), spacing * 1e3),
-        fmt::format("at most {}", kMostClusters * kCluster), "take a wider spacing of surface points");
+        fmt::format("at most {}", kMostClusters * kCluster), "lower field.points");
   return body;
 }
 

@@ -199,6 +199,24 @@ void contact_keys(Fields& f, ContactRecord& r, bool spheres) {
   f.when(spheres, "method = \"spheres\"", [&] { sphere_contact_keys(f, r); });
 }
 
+void field_keys(Fields& f, FieldAccuracy& r) {
+  f.real(
+      {.name = "points",
+       .meaning = "surface points across the diameter of the sphere of equal volume",
+       .range = between(4, 60, "fewer leave gaps that edges fall into; more cost time and see nothing new")},
+      r.points);
+  f.real(
+      {.name = "grid",
+       .meaning = "cells of a mesh's depth field across the same diameter; at least 1/7 as many across its "
+                  "thinnest wall",
+       .range = between(16, 400, "fewer round the edges away; more are slow to make")},
+      r.grid);
+  f.real({.name = "memory_MB",
+          .meaning = "largest depth field; a shape that needs more is refused",
+          .range = between(1, 1e5)},
+         r.memory_MB);
+}
+
 void stepping_keys(Fields& f, CaseRecord& record) {
   Stepping& r = record.stepping;
   f.when(record.method == "spheres", "method = \"spheres\"", [&] {
@@ -417,6 +435,8 @@ void visit_case(Fields& f, CaseRecord& r) {
   f.section("container", "What holds the bed: z up, floor at z = 0, axis through the origin.",
             [&] { container_keys(f, r.container); });
   both_contacts(f, r);
+  f.section("field", "How finely the field kernel sees bodies; the other kernels are exact.",
+            [&] { field_keys(f, r.field); });
   f.section("feed", "How pellets enter.", [&] { feed_keys(f, r); });
   f.section("stepping", "How the packer moves bodies, and when it calls the bed at rest.",
             [&] { stepping_keys(f, r); });

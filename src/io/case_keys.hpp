@@ -61,6 +61,7 @@ struct CaseRecord {
   std::vector<PelletRecord> pellets = std::vector<PelletRecord>(1);
   ContainerRecord container;
   ContactRecord pellet_contact, wall_contact;
+  FieldAccuracy field;
   Feed feed;
   std::string feed_kind = "layers", feed_csv;
   std::vector<PlacedRecord> placed;

@@ -58,7 +58,11 @@ std::vector<Kind> make_kinds(const Scene& scene) {
   if (general)
     for (Kind& kind : kinds) kind.kernel = Kernel::field;
   for (Kind& kind : kinds)
-    if (kind.kernel == Kernel::field) kind.field = std::make_shared<FieldBody>(make_field_body(*kind.shape));
+    if (kind.kernel == Kernel::field)
+      kind.field = std::make_shared<FieldBody>(
+          make_field_body(*kind.shape, {.spacing = kind.shape->equivalent_diameter() / scene.field.points,
+                                        .grid = scene.field.grid,
+                                        .memory_bytes = 1e6 * scene.field.memory_MB}));
   return kinds;
 }
 

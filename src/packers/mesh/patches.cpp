@@ -1,6 +1,7 @@
 #include "packers/mesh/patches.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "packers/mesh/kernels.hpp"
 #include "packers/mesh/push.hpp"
