@@ -44,10 +44,6 @@ Scene pour(const std::string& method) {
   return s;
 }
 
-PackResult pack(const Scene& s, const Watch& watch = {}) {
-  return s.method == "mesh" ? pack_mesh(s, watch) : pack_lattice(s, watch);
-}
-
 class Shaken : public testing::TestWithParam<const char*> {};
 
 // A tap of velocity v throws a lone pellet to v^2 / 2g, and every tap does.
@@ -106,7 +102,7 @@ TEST_P(Shaken, ABedGetsDenserAndIsTheSameWhenContinued) {
   Scene s = pour(GetParam());
   s.shaking.kind = ShakingKind::taps;
   s.shaking.taps = 4;
-  const PackResult whole = pack(s);
+  const PackResult whole = pack(s, {});
   ASSERT_EQ(whole.record.taps.size(), 5u);
   EXPECT_GT(whole.record.taps.back().packing_density, whole.record.taps.front().packing_density);
   EXPECT_TRUE(whole.record.at_rest);
