@@ -152,9 +152,12 @@ Expected expect(const Scene& s) {
   e.stiffness = stiffness_of(s, s.pellet_contact, std::max(e.speed, 0.1));
   const double wall = stiffness_of(s, s.wall_contact, std::max(e.speed, 0.1));
   const double contact = kPi * std::sqrt(lightest(s) / std::max(2 * e.stiffness, wall));
-  e.step = s.method == "spheres" ? sphere_step(s)
-           : s.stepping.step > 0 ? s.stepping.step
-                                 : contact / s.stepping.steps_per_contact;
+  e.step = s.stepping.step > 0 ? s.stepping.step : contact / s.stepping.steps_per_contact;
+  if (s.method == "spheres") {
+    const SphereNumbers numbers = sphere_numbers(s);
+    e.step = numbers.step;
+    e.stiffness = numbers.stiffness;
+  }
   const double n = expected_pellets(s), g = std::max(s.gravity.norm(), 1e-3);
   const bool placed = s.feed.kind == FeedKind::placed;
   const bool at_once = placed || s.feed.kind == FeedKind::lattice;
@@ -312,8 +315,9 @@ std::string expected_text(const Scene& s, const Expected& e) {
       expected_pellets(s),
       fed_area(s) > 0 || s.feed.kind == FeedKind::placed ? q(expected_height(s), D::length) : "unknown",
       q(e.speed, D::speed), q(e.stiffness, D::stiffness),
-      s.pellet_contact.stiffness > 0
-          ? " (given)"
+      s.pellet_contact.stiffness > 0 ? " (given)"
+      : s.pellet_contact.youngs_modulus > 0
+          ? " (of the smallest pellets, from youngs_modulus)"
           : fmt::format(" (from an allowed overlap of {:.3g} %)", 100 * s.pellet_contact.allowed_overlap),
       q(e.step, D::time),
       s.stepping.step > 0 ? " (given)"

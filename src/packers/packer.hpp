@@ -60,8 +60,13 @@ PackResult pack_mesh(const Scene& scene, const Watch& watch, std::span<const std
 
 /// Spheres only, of any sizes: the same physics with what spheres make simpler. `state` as above.
 PackResult pack_spheres(const Scene& scene, const Watch& watch, std::span<const std::byte> state = {});
-/// The step that it would take [s]; throws as it does.
-double sphere_step(const Scene& scene);
+/// What it would take; throws as it does.
+struct SphereNumbers {
+  double step = 0;       // [s]
+  double stiffness = 0;  // of two of the smallest spheres; with Hertz's law at the deepest overlap of the
+                         // hardest impact [N/m]
+};
+SphereNumbers sphere_numbers(const Scene& scene);
 
 /// Pellets and container in cells of a lattice: methods digipac, digicgp and digidem. `state` as above.
 /// Throws InputError also for pellets too thin, containers that close and lattices too large at this voxel

@@ -117,19 +117,19 @@ SphereLaw find_law(const Scene& scene, const ContactLaw& law, const std::vector<
   return out;
 }
 
-/// Contact time of the stiffest contact: of the smallest sphere, by the stiffness at the deepest overlap of
-/// the hardest impact.
+/// dF/ddelta at the deepest overlap of the hardest impact [N/m].
+double stiffness_of(const SphereLaw& law, double radius, double mass, double speed) {
+  const double deepest =
+      law.hertz ? std::pow(1.25 * mass * speed * speed / (law.modulus * std::sqrt(radius)), 0.4) : 1.0;
+  return elastic_of(law, four(radius), four(deepest)).slope[0];
+}
+
+/// Contact time of the stiffest contact: of the smallest sphere.
 double shortest_contact(const Model& model, const Extremes& e, double speed) {
   const double mass = mass_of(e.smallest, e.density);
-  const auto time = [&](const SphereLaw& law, double radius, double reduced) {
-    const double deepest =
-        law.hertz ? std::pow(1.25 * reduced * speed * speed / (law.modulus * std::sqrt(radius)), 0.4) : 1.0;
-    return kPi * std::sqrt(reduced / elastic_of(law, four(radius), four(deepest)).slope[0]);
-  };
-  const double pellets = time(model.pellet_law, 0.5 * e.smallest, 0.5 * mass);
-  return model.container.kind == ContainerKind::none
-             ? pellets
-             : std::min(pellets, time(model.wall_law, e.smallest, mass));
+  const double pellets = kPi * std::sqrt(0.5 * mass / model.smallest_stiffness);
+  if (model.container.kind == ContainerKind::none) return pellets;
+  return std::min(pellets, kPi * std::sqrt(mass / stiffness_of(model.wall_law, e.smallest, mass, speed)));
 }
 
 }  // namespace
@@ -154,7 +154,10 @@ Model make_model(const Scene& scene) {
     for (const PelletKind& pellet : scene.pellets) shapes.push_back(pellet.shape);
     model.solid = std::make_shared<SolidWall>(scene.container, shapes, 2.0 * e.smallest);
   }
-  const double contact = shortest_contact(model, e, impact_speed(scene));
+  const double speed = impact_speed(scene);
+  model.smallest_stiffness =
+      stiffness_of(model.pellet_law, 0.5 * e.smallest, 0.5 * mass_of(e.smallest, e.density), speed);
+  const double contact = shortest_contact(model, e, speed);
   model.step = scene.stepping.step > 0 ? scene.stepping.step : contact / scene.stepping.steps_per_contact;
   // below six steps a contact the explicit scheme gains energy in deep touches (docs/mesh_packer.md)
   if (model.step > contact / 6.0)
@@ -171,8 +174,9 @@ Model make_model(const Scene& scene) {
 
 namespace packbed {
 
-double sphere_step(const Scene& scene) {
-  return spheres::make_model(scene).step;
+SphereNumbers sphere_numbers(const Scene& scene) {
+  const spheres::Model model = spheres::make_model(scene);
+  return {model.step, model.smallest_stiffness};
 }
 
 }  // namespace packbed

@@ -33,6 +33,7 @@ struct Model {
   bool turns = false, rolls = false;  // some law has friction, rolling friction
   bool gear = false;                  // integrator: Gear's instead of velocity Verlet
   double step = 0;                    // [s]
+  double smallest_stiffness = 0;      // dF/ddelta of two of the smallest spheres in the hardest impact [N/m]
   double skin = 0;                    // of the lists, fraction of the radius
   Stepping stepping;
   double expected_time = 0;  // of the whole run, for the progress line [s]
