@@ -8,12 +8,6 @@ namespace {
 
 using namespace law;
 
-struct Thrown {
-  const char* method;
-  int body;  // 0: a ball, 1: an A38 on edge
-  int side;  // +x, -x, +y, -y
-};
-
 class BoxSides : public testing::TestWithParam<std::tuple<std::string, int, int>> {};
 
 // A body thrown at a side comes back as one thrown at the floor does, turned with it.
@@ -70,7 +64,6 @@ TEST(Box, HoldsAPour) {
     const PackResult r = pack(s, {});
     EXPECT_EQ(r.record.pellets.inside, 80) << method;
     EXPECT_TRUE(r.record.audit_passed()) << method;
-    EXPECT_GT(r.record.wall.side_shear_N, 0) << method;
   }
 }
 
