@@ -113,6 +113,33 @@ void make_room(DeepPoints& deep, std::size_t more) {
     v->resize(2 * (deep.size + more));
 }
 
+/// Least bound of the distances of those outside.
+PACKBED_WIDE double nearest_outside(const Batch& batch, std::size_t count) {
+  v4d nearest = {kForever, kForever, kForever, kForever};
+  for (std::size_t i = 0; i < count; i += 4) {  // the last point stands for those that pad the batch
+    v4d d;
+    std::memcpy(&d, batch.depth + i, sizeof d);
+    const v4d away = d > 0.0 ? v4d{kForever, kForever, kForever, kForever} : -d;
+    nearest = away < nearest ? away : nearest;
+  }
+  return std::min({nearest[0], nearest[1], nearest[2], nearest[3]});
+}
+
+/// Appends point i of the batch to the last run.
+void take_over(DeepPoints& deep, const Batch& batch, std::size_t i) {
+  const std::size_t k = deep.size++;
+  deep.x[k] = batch.x[i];
+  deep.y[k] = batch.y[i];
+  deep.z[k] = batch.z[i];
+  deep.weight[k] = batch.weight[i];
+  deep.depth[k] = batch.depth[i];
+  deep.gx[k] = batch.gx[i];
+  deep.gy[k] = batch.gy[i];
+  deep.gz[k] = batch.gz[i];
+  std::size_t& top = deep.runs.back().top;
+  if (deep.depth[k] > deep.depth[top]) top = k;
+}
+
 /// Pads the last run with its last point, without weight.
 void end_run(DeepPoints& deep) {
   if (deep.runs.empty()) return;
@@ -185,31 +212,25 @@ double find_deep(const Sight& sight, std::span<const std::uint16_t> points, Deep
   double nearest = kForever;
   std::size_t cluster = 0;
   Batch batch;
+  std::array<std::size_t, kBatch> inside;
   for (std::size_t first = 0; first < points.size(); first += kBatch) {
     const std::size_t n = std::min(kBatch, points.size() - first);
     take_in(sight, points.subspan(first, n), batch);
-    make_room(deep, 4 * n);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!(batch.depth[i] > 0)) {
-        nearest = std::min(nearest, -batch.depth[i]);
-        continue;
-      }
-      const std::size_t of = points[first + i] / kCluster;
+    nearest = std::min(nearest, nearest_outside(batch, n));
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < n; ++i) {  // without a branch: few are inside, and which is as good as random
+      inside[found] = i;
+      found += batch.depth[i] > 0;
+    }
+    make_room(deep, 4 * found);
+    for (std::size_t k = 0; k < found; ++k) {
+      const std::size_t of = points[first + inside[k]] / kCluster;
       if (deep.runs.empty() || of != cluster) {
         end_run(deep);
         deep.runs.push_back({deep.size, deep.size, deep.size});
         cluster = of;
       }
-      const std::size_t k = deep.size++;
-      deep.x[k] = batch.x[i];
-      deep.y[k] = batch.y[i];
-      deep.z[k] = batch.z[i];
-      deep.weight[k] = batch.weight[i];
-      deep.depth[k] = batch.depth[i];
-      deep.gx[k] = batch.gx[i];
-      deep.gy[k] = batch.gy[i];
-      deep.gz[k] = batch.gz[i];
-      if (deep.depth[k] > deep.depth[deep.runs.back().top]) deep.runs.back().top = k;
+      take_over(deep, batch, inside[k]);
     }
   }
   end_run(deep);
