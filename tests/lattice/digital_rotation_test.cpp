@@ -11,7 +11,7 @@ namespace {
 
 TEST(DigitalRotation, OfAQuarterTurnIsExact) {
   StampMaker maker(1e-3, 20e-3);
-  const ShapePtr body = test::cylinder(27e-3, 18e-3);
+  const ShapePtr body = test::cylinder(27e-3, 17e-3);  // no centre of a cell lies on its surface
   const Stamp stamp = maker.make(*body, 1, Quat::Identity(), Vec3::Zero());
   const Quat quarter(Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()));
   EXPECT_EQ(wear(turn_cells(stamp, Vec3::Zero(), quarter), maker.make(*body, 1, quarter, Vec3::Zero())), 0);
@@ -24,13 +24,13 @@ TEST(DigitalRotation, KeepsTheVolumeAndWearsTheShape) {
   Stamp stamp = maker.make(*body, 1, rotation, Vec3::Zero());
   const std::int64_t count = stamp.count;
   double once = 0, last = 0;
-  for (std::uint32_t n = 1; n <= 300; ++n) {
+  for (std::uint32_t n = 1; n <= 60; ++n) {
     Random random(4, Stream::test, n);
     const Quat turn(Eigen::AngleAxisd(random.uniform(0.1, 0.5), random.on_sphere()));
     rotation = (turn * rotation).normalized();
     stamp = turn_cells(stamp, Vec3::Zero(), turn);
     ASSERT_EQ(stamp.count, count) << n;
-    if (n != 1 && n != 10 && n != 100 && n != 300) continue;
+    if (n != 1 && n != 10 && n != 30 && n != 60) continue;
     last = wear(stamp, maker.make(*body, 1, rotation, Vec3::Zero()));
     RecordProperty("wear_percent_after_" + std::to_string(n), std::to_string(100 * last));
     if (n == 1) once = last;

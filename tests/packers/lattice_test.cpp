@@ -114,7 +114,8 @@ TEST(DigiPac, ReboundSetsHowOftenAPelletRises) {
 TEST(DigiPac, TurnsCellsAndContinuesWithWornPellets) {
   Scene s = pour("digipac");
   s.lattice.turn_cells = true;
-  s.feed.count = 20;
+  s.feed.count = 6;
+  s.lattice.rotation_share = 0.05;
   const PackResult whole = pack_lattice(s, {});
   EXPECT_EQ(audit_of(whole.record), "");
   EXPECT_NE(whole.record.notes.at(0).find("not where its shape has them"), std::string::npos);
@@ -123,7 +124,7 @@ TEST(DigiPac, TurnsCellsAndContinuesWithWornPellets) {
   std::vector<std::byte> state;
   Watch watch;
   watch.stop = &stop;
-  watch.snapshot = [&](const Snapshot& shot) { stop = shot.time > 0.12; };
+  watch.snapshot = [&](const Snapshot& shot) { stop = shot.time > 0.04; };
   watch.checkpoint = [&](std::span<const std::byte> bytes) { state.assign(bytes.begin(), bytes.end()); };
   ASSERT_TRUE(pack_lattice(s, watch).stopped);
   EXPECT_EQ(bed_hash(pack_lattice(s, {}, state).bed), bed_hash(whole.bed));
