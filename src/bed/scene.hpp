@@ -80,7 +80,7 @@ struct Feed {
 /// How the mesh packer moves bodies.
 struct Stepping {
   double step = 0;  // [s]; 0: contact time of the stiffest contact / steps_per_contact
-  double steps_per_contact = 16;
+  double steps_per_contact = 20;
   double skin = 0;    // of the neighbour list [m]; 0: found from the pellet size
   bool gear = false;  // spheres: Gear's predictor-corrector of sixth order instead of velocity Verlet
   bool sleep = true;  // let settled pellets stand still until something moves them

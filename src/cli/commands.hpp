@@ -69,6 +69,15 @@ struct HandoverOptions {
 };
 int handover(const HandoverOptions&);
 
+struct BenchOptions {
+  std::vector<std::string> names;  // empty: all
+  std::string out = "bench", case_file = "cases/quick.toml";
+  bool quick = false, list = false, quiet = false;
+  int pellets = 0, seeds = 0;  // 0: as the case says, as the bench likes
+  int threads = 0;             // 0: one
+};
+int bench(const BenchOptions&);
+
 struct ExportOptions {
   std::string bed, to = "vtu", out;
 };

@@ -341,7 +341,7 @@ TEST(PartialVolume, IsTheCentroidRuleForOnePointAndNearerToTheVolumeForMore) {
   };
   EXPECT_NEAR(volume(1), static_cast<double>(count(voxelise(bed, frame))) * std::pow(frame.pitch, 3), 1e-15);
   EXPECT_NEAR(volume(8), shape->volume, 1e-3 * shape->volume);
-  EXPECT_THROW(partial_volume(bed, frame, 9), InputError);
+  EXPECT_THROW(partial_volume(bed, frame, kMostPoints + 1), InputError);
 }
 
 TEST(Bed, TopAndHashFollowThePose) {

@@ -94,7 +94,7 @@ TEST(CaseRefuses, DampingOutsideItsRange) {
 
 TEST(CaseRefuses, TwoKeysThatSayTheSameThing) {
   expect_refused("damping = 0.4", "damping = 0.4\nrestitution = 0.5",
-                 {"contact.restitution", "one of damping, restitution, not both"});
+                 {"contact.restitution", "one of damping, restitution, dissipation, not both"});
   expect_refused("damping = 0.4", "stiffness = \"1 kN/m\"\nallowed_overlap = 0.02",
                  {"contact.allowed_overlap", "not both"});
 }

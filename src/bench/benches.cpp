@@ -1,0 +1,31 @@
+#include <algorithm>
+#include <array>
+
+#include "bench/bench.hpp"
+#include "math/error.hpp"
+
+namespace packbed::bench {
+namespace {
+
+constexpr std::array kBenches = {
+    Bench{"contact", "How close are forces to the converged law, at what cost?", bench_contact},
+    Bench{"integrator", "How do energy and angle depend on the step?", bench_integrator},
+    Bench{"voxels", "How do volumes and profiles depend on the voxel?", bench_voxels},
+};
+
+}  // namespace
+
+std::span<const Bench> benches() {
+  return kBenches;
+}
+
+const Bench& find_bench(std::string_view name) {
+  const auto found =
+      std::find_if(kBenches.begin(), kBenches.end(), [&](const Bench& b) { return b.name == name; });
+  if (found != kBenches.end()) return *found;
+  std::string names;
+  for (const Bench& b : kBenches) names += (names.empty() ? "" : ", ") + std::string(b.name);
+  throw InputError("packbed bench", '"' + std::string(name) + '"', names, "packbed bench --list tells them");
+}
+
+}  // namespace packbed::bench

@@ -1,0 +1,38 @@
+#pragma once
+// Pellets and the kernels that answer for pairs of them, with the law that each should follow.
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/solid_body.hpp"
+#include "contact/touch.hpp"
+
+namespace packbed::bench {
+
+using TouchAt = std::function<Touch(const Pose&, const Pose&)>;
+
+struct ContactKernel {
+  std::string name, accuracy;
+  TouchAt touch;
+  TouchAt law;  // the same law, integrated until it no longer changes
+};
+
+/// A pellet and all kernels that can do it, the finest last.
+struct ContactSubject {
+  std::string name;
+  std::shared_ptr<SolidShape> solid;
+  double size = 0;  // D, that depths are told in: smallest thickness of convex bodies, else diameter of equal
+                    // volume [m]
+  std::vector<ContactKernel> kernels;
+
+  Body at(const Pose& pose) const;
+};
+
+struct SubjectWish {
+  std::string only;     // name of a pellet; empty: all
+  double finest = 112;  // points across the diameter of the law of field kernels
+};
+std::vector<ContactSubject> contact_subjects(const SubjectWish& wish);
+
+}  // namespace packbed::bench
