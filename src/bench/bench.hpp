@@ -15,7 +15,7 @@ namespace packbed::bench {
 struct Options {
   bool quick = false;                            // a size that ends in seconds instead of hours
   std::string case_file = "cases/quick.toml";    // of the benches that pour whole beds
-  int pellets = 0;                               // of those beds; 0: as the case says
+  int pellets = 0;                               // of those beds; 0: as the case says, 60 when quick
   int seeds = 0;                                 // 0: as the bench likes
   std::function<void(const std::string&)> told;  // progress, a line at a time; may be empty
 
@@ -44,5 +44,9 @@ const Bench& find_bench(std::string_view name);
 Outcome bench_contact(const Options& options);
 Outcome bench_integrator(const Options& options);
 Outcome bench_voxels(const Options& options);
+Outcome bench_bed(const Options& options);
+Outcome bench_scaling(const Options& options);
+Outcome bench_skipping(const Options& options);
+Outcome bench_stability(const Options& options);
 
 }  // namespace packbed::bench

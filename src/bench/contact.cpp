@@ -108,13 +108,47 @@ Errors run_kernel(const ContactSubject& subject, const ContactKernel& kernel,
   return all;
 }
 
-void judge(Outcome& out, const Row& row, const Errors& all) {
+void tell(Outcome& out, const Row& row, const Errors& all) {
   const double median = 100 * quantile(all.force, 0.5), far = 100 * quantile(all.force, 0.99);
   out.findings.push_back(fmt::format(
       "{}, {} {}: force within {:.2g} % of the converged law in the median, {:.2g} % at the 99th percentile; "
       "{} missed deeper than 0.5 % D; stiffness within a factor of {:.2g}; {:.0f} ns a look",
       row.subject->name, row.kernel->name, row.kernel->accuracy, median, far, all.missed, row.spread,
       row.ns));
+}
+
+Series& last_or_new(Picture& picture, const std::string& name) {
+  if (picture.series.empty() || picture.series.back().name != name)
+    picture.series.push_back({name, {}, {}, {}, {}});
+  return picture.series.back();
+}
+
+void add_point(Picture& picture, const Row& row, double y) {
+  Series& series = last_or_new(picture, row.subject->name + ", " + row.kernel->name);
+  series.x.push_back(row.ns);
+  series.y.push_back(y);
+  series.label.push_back(row.kernel->accuracy);
+}
+
+std::vector<Touch> law_at(const ContactKernel& kernel, const std::vector<PosePair>& pairs) {
+  std::vector<Touch> law;
+  for (const PosePair& p : pairs) law.push_back(kernel.law(p.a, p.b));
+  return law;
+}
+
+void run_subject(const ContactSubject& subject, int poses, Outcome& out) {
+  const std::vector<PosePair> pairs = random_pairs(subject, poses);
+  std::vector<Touch> law;
+  const ContactKernel* before = nullptr;
+  for (const ContactKernel& kernel : subject.kernels) {
+    if (!before || before->name != kernel.name) law = law_at(kernel, pairs);  // kernels of one name share it
+    before = &kernel;
+    Row row{};
+    const Errors all = run_kernel(subject, kernel, pairs, law, out.table, row);
+    tell(out, row, all);
+    add_point(out.pictures[0], row, 100 * quantile(all.force, 0.5));
+    if (subject.solid->convex) add_point(out.pictures[1], row, quantile(all.angle, 0.5));
+  }
 }
 
 }  // namespace
@@ -138,47 +172,20 @@ Outcome bench_contact(const Options& options) {
                        "missed deeper than 0.5 % D",
                        "stiffness, largest over smallest",
                        "a look [ns]"};
-  Picture force{"contact_force",
-                "Force against the converged law",
-                {"CPU time a look [ns]", true},
-                {"error of the force, median [%]", true},
-                {}};
-  Picture angle{"contact_angle",
-                "Direction against the pressure field",
-                {"CPU time a look [ns]", true},
-                {"angle, median [deg]", true},
-                {}};
-  const std::vector<ContactSubject> subjects =
-      contact_subjects({.only = {}, .finest = options.quick ? 56.0 : 112.0});
-  for (const ContactSubject& subject : subjects) {
+  const Axis cost{"CPU time a look [ns]", true};
+  out.pictures = {
+      {"contact_force",
+       "Force against the converged law",
+       cost,
+       {"error of the force, median [%]", true},
+       {}},
+      {"contact_angle", "Direction against the pressure field", cost, {"angle, median [deg]", true}, {}}};
+  SubjectWish wish;
+  if (options.quick) wish.finest = 28, wish.across = {8, kPointsAcross};
+  for_subjects(wish, [&](const ContactSubject& subject) {
     options.tell("contact: " + subject.name);
-    const std::vector<PosePair> pairs = random_pairs(subject, options.quick ? 100 : 10000);
-    std::vector<Touch> law;
-    const ContactKernel* of = nullptr;
-    for (const ContactKernel& kernel : subject.kernels) {
-      if (!of || of->name != kernel.name) {  // kernels of one name share their law
-        law.clear();
-        for (const PosePair& p : pairs) law.push_back(kernel.law(p.a, p.b));
-        for (Picture* p : {&force, &angle})
-          p->series.push_back({subject.name + ", " + kernel.name, {}, {}, {}, {}});
-      }
-      of = &kernel;
-      Row row{};
-      const Errors all = run_kernel(subject, kernel, pairs, law, out.table, row);
-      judge(out, row, all);
-      const auto point = [&](Picture& p, double y) {
-        p.series.back().x.push_back(row.ns);
-        p.series.back().y.push_back(y);
-        p.series.back().label.push_back(kernel.accuracy);
-      };
-      point(force, 100 * quantile(all.force, 0.5));
-      point(angle, quantile(all.angle, 0.5));
-    }
-  }
-  std::erase_if(angle.series, [](const Series& s) {
-    return std::none_of(s.y.begin(), s.y.end(), [](double y) { return y > 0; });
+    run_subject(subject, options.quick ? 60 : 10000, out);
   });
-  out.pictures = {force, angle};
   return out;
 }
 

@@ -19,10 +19,10 @@ TouchAt field_kernel(const Shape& shape, double across) {
 }
 
 /// The field kernel at several spacings of its points; the law is that of much finer ones.
-void add_field_kernels(ContactSubject& subject, double finest) {
+void add_field_kernels(ContactSubject& subject, const SubjectWish& wish) {
   const Shape& shape = *subject.solid->shape;
-  const TouchAt law = field_kernel(shape, finest);
-  for (const double across : {8.0, kPointsAcross, 28.0})
+  const TouchAt law = field_kernel(shape, wish.finest);
+  for (const double across : wish.across)
     subject.kernels.push_back({"field", fmt::format("D/{:.0f}", across), field_kernel(shape, across), law});
 }
 
@@ -99,17 +99,16 @@ Body ContactSubject::at(const Pose& pose) const {
   return Body(*solid, pellet);
 }
 
-std::vector<ContactSubject> contact_subjects(const SubjectWish& wish) {
-  std::vector<ContactSubject> subjects;
+void for_subjects(const SubjectWish& wish, const std::function<void(const ContactSubject&)>& visit) {
   for (const Maker& maker : kMakers) {
     if (!wish.only.empty() && wish.only != maker.name) continue;
-    subjects.push_back(subject_of(std::string(maker.name), maker.make()));
-    const ShapeClass kind = subjects.back().solid->shape->kind;
-    if (kind == ShapeClass::cylinder) add_cylinder_kernel(subjects.back());
-    if (kind == ShapeClass::sphere) add_sphere_kernel(subjects.back());
-    add_field_kernels(subjects.back(), wish.finest);
+    ContactSubject subject = subject_of(std::string(maker.name), maker.make());
+    const ShapeClass kind = subject.solid->shape->kind;
+    if (kind == ShapeClass::cylinder) add_cylinder_kernel(subject);
+    if (kind == ShapeClass::sphere) add_sphere_kernel(subject);
+    add_field_kernels(subject, wish);
+    visit(subject);
   }
-  return subjects;
 }
 
 }  // namespace packbed::bench

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/solid_body.hpp"
+#include "contact/field.hpp"
 #include "contact/touch.hpp"
 
 namespace packbed::bench {
@@ -30,9 +31,11 @@ struct ContactSubject {
 };
 
 struct SubjectWish {
-  std::string only;     // name of a pellet; empty: all
-  double finest = 112;  // points across the diameter of the law of field kernels
+  std::string only;                                  // name of a pellet; empty: all
+  double finest = 112;                               // points across the diameter of the law of field kernels
+  std::vector<double> across{8, kPointsAcross, 28};  // ... of the kernels
 };
-std::vector<ContactSubject> contact_subjects(const SubjectWish& wish);
+/// Calls visit with each pellet in turn; its kernels are made just before.
+void for_subjects(const SubjectWish& wish, const std::function<void(const ContactSubject&)>& visit);
 
 }  // namespace packbed::bench

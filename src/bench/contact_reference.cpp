@@ -12,29 +12,45 @@ namespace {
 constexpr std::array<std::array<double, 2>, 5> kCircles = {
     {{1, 1}, {0.7, 1}, {0.97, 1}, {1, 0.6}, {1, 0.97}}};
 constexpr double kSideLength = 0.05, kParallel = 0.03;  // weight of crossed sides, and where it fades
-constexpr int kFewest = 1024, kMost = 1 << 18;          // points a circle
+constexpr int kFewest = 1024, kMost = 1 << 20;          // points a circle
 
 using Sum = TouchSum<kCurveExponent>;
 
-/// Adds `points` points of each circle of `owner` in `other`; `sign` +1 when the owner is a. Returns how many
-/// of them are inside.
+/// A circle of `owner` that may dip into `other`; `sign` +1 when the owner is a.
+struct Ring {
+  Vec3 centre, u, v;
+  double radius;
+  const Rod& other;
+  double sign;
+
+  Vec3 at(double phi) const { return centre + radius * (std::cos(phi) * u + std::sin(phi) * v); }
+};
+
+/// Adds the middles of the finest parts of [from, to]; no part is split that is farther from the other body
+/// than it is long. Returns how many were inside.
+int add_part(Sum& sum, const Ring& ring, double from, double to, double finest) {
+  const double middle = 0.5 * (from + to), length = ring.radius * (to - from);
+  const Vec3 x = ring.at(middle), y = x - ring.other.centre;
+  const double z = y.dot(ring.other.axis), rho = (y - z * ring.other.axis).norm();
+  if (std::max(rho - ring.other.radius, std::abs(z) - ring.other.half_height) > 0.5 * length) return 0;
+  if (to - from > 1.5 * finest)
+    return add_part(sum, ring, from, middle, finest) + add_part(sum, ring, middle, to, finest);
+  Vec3 slope;
+  const double d = depth_in_cylinder(y, ring.other.axis, ring.other.radius, ring.other.half_height, slope);
+  if (!(d > 0)) return 0;
+  sum.add(x, d, length, ring.sign * slope);
+  return 1;
+}
+
+/// Adds the circles of `owner` in `other`, each by `points` points.
 int add_circles(Sum& sum, const Rod& owner, const Rod& other, double sign, int points) {
   const Vec3 u = owner.axis.unitOrthogonal(), v = owner.axis.cross(u);
   int inside = 0;
   for (const auto& [wide, high] : kCircles)
     for (const double end : {-1.0, 1.0}) {
-      const double radius = wide * owner.radius;
       const Vec3 centre = owner.centre + end * high * owner.half_height * owner.axis;
-      for (int i = 0; i < points; ++i) {
-        const double phi = 2 * kPi * i / points;
-        const Vec3 x = centre + radius * (std::cos(phi) * u + std::sin(phi) * v);
-        Vec3 slope;
-        const double d =
-            depth_in_cylinder(x - other.centre, other.axis, other.radius, other.half_height, slope);
-        if (!(d > 0)) continue;
-        ++inside;
-        sum.add(x, d, 2 * kPi * radius / points, sign * slope);
-      }
+      const Ring ring{centre, u, v, wide * owner.radius, other, sign};
+      inside += add_part(sum, ring, 0, 2 * kPi, 2 * kPi / points);
     }
   return inside;
 }
@@ -126,16 +142,18 @@ Window close_window(const Body& a, const Body& b, const Vec3& origin, const Fram
   constexpr int kCells = 32;
   const double reach = 2 * std::max(a.bounding_radius(), b.bounding_radius());
   Window window{-reach, reach, -reach, reach};
-  for (;;) {
-    Window hit{0, 0, 0, 0};  // the origin lies in the overlap
+  for (int round = 0; round < 12; ++round) {  // an overlap too small for them is not found at all
+    Window hit{0, 0, 0, 0};                   // the origin lies in the overlap
     for_lines(a, b, origin, f, window, kCells, [&](const Vec3&, double, double, double u, double v) {
       hit = {std::min(hit.u0, u), std::max(hit.u1, u), std::min(hit.v0, v), std::max(hit.v1, v)};
     });
     const double du = (window.u1 - window.u0) / kCells, dv = (window.v1 - window.v0) / kCells;
     const Window next{hit.u0 - du, hit.u1 + du, hit.v0 - dv, hit.v1 + dv};
-    if (next.area(1) > 0.67 * window.area(1)) return next;
+    const bool close = next.area(1) > 0.67 * window.area(1);
     window = next;
+    if (close) break;
   }
+  return window;
 }
 
 /// Gradient of the difference of the two depths.
@@ -162,9 +180,9 @@ Touch converged_cylinders(const Rod& a_world, const Rod& b_world) {
     const int inside = add_circles(sum, a, b, 1.0, points) + add_circles(sum, b, a, -1.0, points);
     add_crossing(sum, a, b);
     const Touch touch = sum.finish(2 * kPi * std::min(a.radius, b.radius), a.centre, b.centre);
-    const bool same = std::abs(touch.delta - last.delta) <= 1e-6 * touch.delta &&
-                      (touch.gradient - last.gradient).norm() <= 1e-6 * touch.gradient.norm();
-    if (points > kFewest && same && (inside == 0 || inside > 64)) return touch;
+    const bool same = std::abs(touch.delta - last.delta) <= 1e-5 * touch.delta &&
+                      (touch.gradient - last.gradient).norm() <= 1e-5 * touch.gradient.norm();
+    if (points > kFewest && same && (inside == 0 || inside > 100)) return touch;
     last = touch;
   }
   return last;

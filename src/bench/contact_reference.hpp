@@ -9,7 +9,7 @@
 namespace packbed::bench {
 
 /// The law of contact/cylinder.hpp by brute force: its twenty circles as so many points that force and delta
-/// change by less than 1e-6 when there are twice as many, and the crossing of the sides with the slopes of
+/// change by less than 1e-5 when there are twice as many, and the crossing of the sides with the slopes of
 /// finite differences.
 Touch converged_cylinders(const Rod& a, const Rod& b);
 
