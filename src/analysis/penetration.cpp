@@ -172,7 +172,8 @@ class GrowingPolytope {
 /// Two spheres in closed form; the general search works too, but a bed of spheres has many such pairs.
 std::optional<Penetration> between_spheres(const Body& a, const Body& b) {
   const Vec3 apart = b.centre() - a.centre();
-  const double ra = a.bounding_radius(), rb = b.bounding_radius(), distance = apart.norm();
+  // the bounding radius holds the facets too
+  const double ra = 0.5 * a.thickness(), rb = 0.5 * b.thickness(), distance = apart.norm();
   if (distance >= ra + rb) return std::nullopt;
   Penetration p;
   p.depth = ra + rb - distance;

@@ -112,8 +112,10 @@ void tell(Outcome& out, const Row& row, const Errors& all) {
   const double median = 100 * quantile(all.force, 0.5), far = 100 * quantile(all.force, 0.99);
   out.findings.push_back(fmt::format(
       "{}, {} {}: force within {:.2g} % of the converged law in the median, {:.2g} % at the 99th percentile; "
-      "{} missed deeper than 0.5 % D; stiffness within a factor of {:.2g}; {:.0f} ns a look",
-      row.subject->name, row.kernel->name, row.kernel->accuracy, median, far, all.missed, row.spread,
+      "{} missed deeper than 0.5 % D; {}; {:.0f} ns a look",
+      row.subject->name, row.kernel->name, row.kernel->accuracy, median, far, all.missed,
+      std::isfinite(row.spread) ? fmt::format("stiffness within a factor of {:.2g}", row.spread)
+                                : std::string("a kind of touch is not seen at 0.5 % D"),
       row.ns));
 }
 

@@ -27,6 +27,7 @@ TEST(PressureField, OfTwoSpheresIsItsClosedForm) {
   const Vec3 n = Vec3(1, 2, -0.5).normalized();
   const Body a = body_at(ball, {Vec3(0.1, 0.2, 0.3), Quat::Identity()}),
              b = body_at(ball, {Vec3(0.1, 0.2, 0.3) + d * n, Quat::Identity()});
+  EXPECT_NEAR(penetration(a, b)->depth, 2 * r - d, 1e-12);
   const auto found = pressure_field(a, b, *penetration(a, b), 200);
   ASSERT_TRUE(found);
   const double c = d / 2;
