@@ -62,6 +62,24 @@ void add_analyse(CLI::App& app, int& code) {
   c->callback([o, &code] { code = analyse(*o); });
 }
 
+void add_bench(CLI::App& app, int& code) {
+  auto o = std::make_shared<BenchOptions>();
+  CLI::App* c = app.add_subcommand("bench", "run time against error: tables, pictures and a page");
+  c->add_option("names", o->names, "benches to run (default: all)");
+  c->add_option("--out", o->out, "folder for bench.html, and a CSV and pictures each (default: bench)");
+  c->add_option("--case", o->case_file, "case of the benches that pour beds (default: cases/quick.toml)");
+  c->add_option("--pellets", o->pellets, "of these beds (default: as the case says)")
+      ->check(CLI::PositiveNumber);
+  c->add_option("--seeds", o->seeds, "of these beds (default: as the bench likes)")
+      ->check(CLI::PositiveNumber);
+  c->add_option("--threads", o->threads, "threads (default: 1, so that CPU times are those of one core)");
+  c->add_flag("--quick", o->quick, "small sizes, about a minute in all");
+  c->add_flag("--list", o->list, "tell the benches and what they ask");
+  c->add_flag("--quiet", o->quiet, "no progress");
+  c->footer("Examples:\n  packbed bench --quick --out results/bench\n  packbed bench contact integrator");
+  c->callback([o, &code] { code = bench(*o); });
+}
+
 void add_check(CLI::App& app, int& code) {
   auto o = std::make_shared<CheckOptions>();
   CLI::App* c =
@@ -122,24 +140,6 @@ void add_law(CLI::App& app, int& code) {
   c->callback([o, &code] { code = law(*o); });
 }
 
-void add_bench(CLI::App& app, int& code) {
-  auto o = std::make_shared<BenchOptions>();
-  CLI::App* c = app.add_subcommand("bench", "run time against error: tables, pictures and a page");
-  c->add_option("names", o->names, "benches to run (default: all)");
-  c->add_option("--out", o->out, "folder for bench.html, and a CSV and pictures each (default: bench)");
-  c->add_option("--case", o->case_file, "case of the benches that pour beds (default: cases/quick.toml)");
-  c->add_option("--pellets", o->pellets, "of these beds (default: as the case says)")
-      ->check(CLI::PositiveNumber);
-  c->add_option("--seeds", o->seeds, "of these beds (default: as the bench likes)")
-      ->check(CLI::PositiveNumber);
-  c->add_option("--threads", o->threads, "threads (default: 1, so that CPU times are those of one core)");
-  c->add_flag("--quick", o->quick, "small sizes, about a minute in all");
-  c->add_flag("--list", o->list, "tell the benches and what they ask");
-  c->add_flag("--quiet", o->quiet, "no progress");
-  c->footer("Examples:\n  packbed bench --quick --out results/bench\n  packbed bench contact integrator");
-  c->callback([o, &code] { code = bench(*o); });
-}
-
 void add_handover(CLI::App& app, int& code) {
   auto o = std::make_shared<HandoverOptions>();
   CLI::App* c =
@@ -170,12 +170,12 @@ int main(int argc, char** argv) {
   cli::add_resume(app, code);
   cli::add_voxelise(app, code);
   cli::add_analyse(app, code);
+  cli::add_bench(app, code);
   cli::add_check(app, code);
   cli::add_export(app, code);
   cli::add_compare(app, code);
   cli::add_law(app, code);
   cli::add_handover(app, code);
-  cli::add_bench(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
