@@ -48,7 +48,8 @@ TEST_P(Killed, IsResumedToTheSameBed) {
   const auto run = [&](const std::string& out) {
     std::vector<std::string> words{
         "run", PACKBED_SOURCE_DIR "/cases/quick.toml", "--quiet", "--threads", "1", "--out", out};
-    for (const char* set : {"feed.kind=pour", "feed.count=60", "feed.per_layer=6", "feed.drop_height=50mm",
+    for (const char* set : {"pellet.shape=cylinder", "pellet.diameter=3.42mm", "pellet.height=3.46mm",
+                            "feed.kind=pour", "feed.count=60", "feed.per_layer=6", "feed.drop_height=50mm",
                             "container.shape=tube", "container.inner_diameter=20mm", "container.height=60mm",
                             "lattice.voxel=0.3mm", "analysis.exact=false", "output.report=false",
                             "output.vtk=false", "output.checkpoint_interval=20ms"})
