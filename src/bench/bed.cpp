@@ -31,7 +31,7 @@ std::vector<Change> changes(bool quick) {
     if (quick) values.erase(values.begin() + 1, values.end() - 1);
     return values;
   };
-  add_change(all, "sleep", {0}, [](Scene& s, double) { s.stepping.sleep = false; });
+  all.push_back({"sleep", 0, "off", [](Scene& s) { s.stepping.sleep = false; }});
   add_change(all, "sleep_displacement", some({1e-4, 3e-4, 3e-3, 1e-2}),
              [](Scene& s, double v) { s.stepping.sleep_displacement = v; });
   add_change(all, "steps_per_contact", some({10, 14, 28, 40}),
