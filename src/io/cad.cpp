@@ -100,6 +100,10 @@ double scale_of(const std::string& path, CadFormat format, const std::string& un
   return length_unit(unit, path);
 }
 
+// Wall-clock time that the reader is given, over its processor time: a good file on a busy machine is no bad
+// file.
+constexpr double kPatience = 3;
+
 std::string why_it_died(const ChildResult& child, const CadLimits& limits) {
   if (child.timed_out || child.signal == SIGXCPU || child.signal == SIGKILL)
     return fmt::format("a file that could not be read within {:g} s", limits.seconds);
@@ -115,7 +119,7 @@ CadMessage ask_reader(const std::string& path, const CadRequest& request, const 
                       const std::string& allowed) {
   std::vector<std::string> argv = request.to_arguments();
   argv.insert(argv.begin(), find_reader());
-  const ChildResult child = run_child(argv, limits.seconds, limits.memory);
+  const ChildResult child = run_child(argv, kPatience * limits.seconds, limits.memory);
   const std::string fix = "open it in the program that made it, mend it and export it again";
   const std::optional<CadMessage> answer = decode(child.output);
   if (!answer) {

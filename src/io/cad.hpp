@@ -19,7 +19,7 @@ enum class CadFormat : std::uint32_t { step, msh, stl, obj, ply };
 std::string_view to_string(CadFormat);
 
 struct CadLimits {
-  double seconds = 20;                            // wall clock, and of processor time [s]
+  double seconds = 20;                            // of processor time; three times as long by the clock [s]
   std::uint64_t memory = std::uint64_t{2} << 30;  // address space [bytes]; not enforced under a sanitizer
 };
 
