@@ -10,6 +10,10 @@
 #include "packers/expect.hpp"
 #include "packers/packer.hpp"
 
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are only passed between functions that are inlined
+#endif
+
 namespace packbed::spheres {
 namespace {
 
