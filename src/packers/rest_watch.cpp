@@ -6,7 +6,7 @@
 namespace packbed {
 namespace {
 
-// Of so many pellets one may drift on in a bed at rest: a cylinder that rolls loses nothing.
+// Of so many pellets one may drift on in a bed at rest: one that rolls loses little.
 constexpr std::size_t kRollers = 1000;
 
 }  // namespace
