@@ -1,8 +1,11 @@
 #include "packers/expect.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "math/error.hpp"
 #include "packers/feed.hpp"
 
 namespace packbed {
@@ -26,6 +29,17 @@ double landing_speed(const Scene& scene) {
     speed = std::max(speed, p.velocity.norm() + radius * p.spin.norm());
   }
   return std::sqrt(speed * speed + 2.0 * scene.gravity.norm() * std::max(0.0, fall));
+}
+
+double step_for(const Scene& scene, double contact, const std::string& fix) {
+  const Stepping& asked = scene.stepping;
+  const double step = asked.step > 0 ? asked.step : contact / asked.steps_per_contact;
+  // below six steps a contact the explicit scheme gains energy in deep touches (docs/mesh_packer.md)
+  if (step > contact / 6.0)
+    throw InputError(
+        scene.case_file + ": stepping.step", fmt::format("{:.3g} us", 1e6 * step),
+        fmt::format("at most {:.3g} us, a sixth of the stiffest contact's time", 1e6 * contact / 6.0), fix);
+  return step;
 }
 
 double expected_time(const Scene& scene) {

@@ -1,5 +1,6 @@
 #pragma once
 // What can be told of a run before it starts, from the scene alone.
+#include <string>
 #include <utility>
 
 #include "bed/scene.hpp"
@@ -10,6 +11,9 @@ namespace packbed {
 std::pair<double, double> scales_of(const Scene& scene, std::uint32_t kind);
 /// Highest speed that a pellet can have when it lands [m/s].
 double landing_speed(const Scene& scene);
+/// The step of the scene [s], from the time of its stiffest contact. Throws InputError, with `fix` as the way
+/// out, for one that the explicit scheme cannot take.
+double step_for(const Scene& scene, double contact, const std::string& fix);
 /// Simulated time until rest [s], roughly: for the progress line.
 double expected_time(const Scene& scene);
 

@@ -186,13 +186,7 @@ Model make_model(const Scene& scene) {
     largest = std::max(largest, kind.largest * kind.bounding_radius);
   }
   const double contact = shortest_contact(model);
-  model.step = scene.stepping.step > 0 ? scene.stepping.step : contact / scene.stepping.steps_per_contact;
-  // below six steps a contact the explicit scheme gains energy in deep touches (docs/mesh_packer.md)
-  if (model.step > contact / 6.0)
-    throw InputError(
-        scene.case_file + ": stepping.step", fmt::format("{:.3g} us", 1e6 * model.step),
-        fmt::format("at most {:.3g} us, a sixth of the stiffest contact's time", 1e6 * contact / 6.0),
-        "leave the step out, or lower contact.stiffness");
+  model.step = step_for(scene, contact, "leave the step out, or lower contact.stiffness");
   require_safe_walls(scene, model);
   model.skin = scene.stepping.skin > 0 ? scene.stepping.skin : 0.05 * largest;
   // leaps need a floor below and nothing above: a container that is not recognised may have anything anywhere

@@ -162,13 +162,7 @@ Model make_model(const Scene& scene) {
   model.smallest_stiffness =
       stiffness_of(model.pellet_law, 0.5 * e.smallest, 0.5 * mass_of(e.smallest, e.density), speed);
   const double contact = shortest_contact(model, e, speed);
-  model.step = scene.stepping.step > 0 ? scene.stepping.step : contact / scene.stepping.steps_per_contact;
-  // below six steps a contact the explicit scheme gains energy in deep touches (docs/mesh_packer.md)
-  if (model.step > contact / 6.0)
-    throw InputError(
-        scene.case_file + ": stepping.step", fmt::format("{:.3g} us", 1e6 * model.step),
-        fmt::format("at most {:.3g} us, a sixth of the stiffest contact's time", 1e6 * contact / 6.0),
-        "leave the step out, or make contacts softer");
+  model.step = step_for(scene, contact, "leave the step out, or make contacts softer");
   model.skin = scene.stepping.skin > 0 ? scene.stepping.skin / e.largest : kSkin / 2;
   model.expected_time = expected_time(scene);
   return model;
