@@ -5,7 +5,7 @@
 namespace packbed::mesh {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'00000009;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'0000000a;  // changes with any change of State
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>
@@ -19,8 +19,8 @@ void visit(Archive& io, S& s) {
   io(b.force), io(b.torque), io(b.motion);
   io(s.flight_end), io(s.flight_from), io(s.listed_at), io(s.margin), io(s.doze);
   auto& p = s.pairs;
-  io(p.pair), io(p.look_at), io(p.load), io(p.record), io(p.patches), io(p.active), io(p.first), io(p.entry),
-      io(p.shore), io(p.shore_stale);
+  io(p.pair), io(p.look_at), io(p.load), io(p.record), io(p.slot), io(p.features), io(p.vacant),
+      io(p.patches), io(p.active), io(p.first), io(p.entry), io(p.shore), io(p.shore_stale);
   io(s.awake), io(s.next_landing), io(s.search_due);
   visit_rest(io, s.rest);
   visit_shake(io, s.shake);

@@ -56,13 +56,13 @@ Touch touch_wall(const Model& model, const Bodies& bodies, std::uint32_t a, std:
   return floor ? touch_floor(rod_of(model, bodies, a), gap) : touch_tube(rod_of(model, bodies, a), tube, gap);
 }
 
-Touch touch_rods(const Rod& a, const Rod& b, PairRecord& record, double& gap) {
-  record.features.known = false;
+Touch touch_rods(const Rod& a, const Rod& b, RodFeatures& features, double& gap) {
+  features.known = false;
   gap = separation(a, b);
   if (gap > 0) return {};
-  const Touch touch = touch_cylinders(a, b, record.features);
+  const Touch touch = touch_cylinders(a, b, features);
   // an arc that has only just begun may not hold, and is looked for again at once
-  gap = record.features.known ? record.features.due() : 0.0;
+  gap = features.known ? features.due() : 0.0;
   return touch;
 }
 
@@ -79,7 +79,7 @@ Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i) {
   return {bodies.position[i], bodies.axis[i], scale * shape.radius, scale * shape.half_height};
 }
 
-Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, PairRecord& record,
+Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, RodFeatures& features,
                  double& gap) {
   const auto [a, b] = pair;
   if (is_container(b)) return touch_wall(model, bodies, a, b, gap);
@@ -89,7 +89,7 @@ Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair,
   if (gap > 0) return {};
   if (ka.kernel == Kernel::sphere && kb.kernel == Kernel::sphere)
     return touch_spheres(xa, radius_of(model, bodies, a), xb, radius_of(model, bodies, b));
-  return touch_rods(rod_of(model, bodies, a), rod_of(model, bodies, b), record, gap);
+  return touch_rods(rod_of(model, bodies, a), rod_of(model, bodies, b), features, gap);
 }
 
 }  // namespace packbed::mesh

@@ -19,7 +19,7 @@ Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i);
 /// The touch of a pair of spheres or cylinders (for fields see patches.hpp), of two bodies or of one with the
 /// container. When they are apart, gap is a lower bound of the way that their surfaces must go before they
 /// can touch [m].
-Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, PairRecord& record,
+Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, RodFeatures& features,
                  double& gap);
 
 }  // namespace packbed::mesh

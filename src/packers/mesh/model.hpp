@@ -90,7 +90,6 @@ struct PairRecord {
   Vec3 point = Vec3::Zero();      // [m]
   double elastic = 0;             // stored now [J]
   double damped = 0, rubbed = 0;  // lost since the last search [J]
-  RodFeatures features;           // of the cylinder kernel: what is known of the pair
   double held = 0;                // size of the force when one of the two fell asleep [N]
   double peak = 0;                // greatest depth since the last search, fraction of the thickness
   // touching steps since the last search, and those deeper than 5 % and 10 % of the thickness
@@ -115,6 +114,10 @@ struct Pairs {
   std::vector<double> look_at;  // no touch before the travel of both bodies adds up to this [m]
   std::vector<Load> load;
   std::vector<PairRecord> record;
+  // of the kernels of spheres and cylinders: what is known of a pair stays where it is while the list changes
+  std::vector<std::uint32_t> slot;  // of a pair, in `features`
+  std::vector<RodFeatures> features;
+  std::vector<std::uint32_t> vacant;  // slots
   // of the field kernel, else empty
   std::vector<PatchRecords> patches;
   std::vector<NearPoints> near;       // not in checkpoints: they change no result

@@ -14,6 +14,7 @@ namespace {
 constexpr double kHorizonSteps = 60;
 // What moves faster is not part of the bed's surface [m/s].
 constexpr double kSurfaceSpeed = 0.2;
+constexpr std::uint32_t kNone = 0xffffffff;
 
 void enter(const Model& model, State& state, const Pellet& pellet) {
   const Kind& kind = model.kinds[pellet.shape];
@@ -68,30 +69,57 @@ void keep_quiet_pairs(const State& state, std::vector<BodyPair>& pairs) {
       pairs.push_back(state.pairs.pair[p]);
 }
 
-/// Carries records over to the new list; both lists ascend.
+/// Slots for what will be known of pairs that are new; those of pairs that are gone are vacant again. old: of
+/// each, its place in the list before, or none.
+void hand_out_slots(Pairs& pairs, const std::vector<std::uint32_t>& old) {
+  std::vector<std::uint8_t> stays(pairs.slot.size(), 0);
+  for (const std::uint32_t o : old)
+    if (o != kNone) stays[o] = 1;
+  for (std::size_t o = 0; o < stays.size(); ++o)
+    if (!stays[o]) pairs.vacant.push_back(pairs.slot[o]);
+  std::vector<std::uint32_t> slot(old.size());
+  for (std::size_t p = 0; p < old.size(); ++p) {
+    if (old[p] != kNone) {
+      slot[p] = pairs.slot[old[p]];
+      continue;
+    }
+    if (pairs.vacant.empty()) {
+      pairs.vacant.push_back(static_cast<std::uint32_t>(pairs.features.size()));
+      pairs.features.emplace_back();
+    }
+    slot[p] = pairs.vacant.back();
+    pairs.vacant.pop_back();
+    pairs.features[slot[p]].known = false;
+  }
+  pairs.slot.swap(slot);
+}
+
+template <class T>
+void carry(std::vector<T>& values, const std::vector<std::uint32_t>& old, const T& blank) {
+  std::vector<T> now(old.size(), blank);
+  for (std::size_t p = 0; p < old.size(); ++p)
+    if (old[p] != kNone) now[p] = std::move(values[old[p]]);
+  values.swap(now);
+}
+
+/// Carries what is known of pairs over to the new list; both lists ascend.
 void carry_over(Pairs& pairs, std::vector<BodyPair>& fresh, bool fields) {
-  std::vector<double> look_at(fresh.size(), 0.0);
-  std::vector<Load> load(fresh.size());
-  std::vector<PairRecord> record(fresh.size());
-  std::vector<PatchRecords> patches(fields ? fresh.size() : 0);
-  std::vector<NearPoints> near(patches.size());
-  std::size_t old = 0;
+  std::vector<std::uint32_t> old(fresh.size(), kNone);
+  std::uint32_t at = 0;
   for (std::size_t p = 0; p < fresh.size(); ++p) {
-    while (old < pairs.pair.size() && pairs.pair[old] < fresh[p]) ++old;
-    if (old == pairs.pair.size() || !(pairs.pair[old] == fresh[p])) continue;
-    look_at[p] = pairs.look_at[old];
-    load[p] = pairs.load[old];
-    record[p] = pairs.record[old];
-    if (!fields) continue;
-    patches[p] = pairs.patches[old];
-    std::swap(near[p], pairs.near[old]);
+    while (at < pairs.pair.size() && pairs.pair[at] < fresh[p]) ++at;
+    if (at < pairs.pair.size() && pairs.pair[at] == fresh[p]) old[p] = at;
   }
   pairs.pair.swap(fresh);
-  pairs.look_at.swap(look_at);
-  pairs.load.swap(load);
-  pairs.record.swap(record);
-  pairs.patches.swap(patches);
-  pairs.near.swap(near);
+  carry(pairs.look_at, old, 0.0);
+  carry(pairs.load, old, Load{});
+  carry(pairs.record, old, PairRecord{});
+  if (!fields) {
+    hand_out_slots(pairs, old);
+    return;
+  }
+  carry(pairs.patches, old, PatchRecords{});
+  carry(pairs.near, old, NearPoints{});
 }
 
 void index_pairs(const Bodies& bodies, Pairs& pairs) {

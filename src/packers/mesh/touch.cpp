@@ -19,6 +19,10 @@ double travel_of(const State& state, std::uint32_t p) {
   return travel[a] + (is_container(b) ? 0.0 : travel[b]);
 }
 
+RodFeatures& features_of(Pairs& pairs, std::uint32_t p) {
+  return pairs.features[pairs.slot[p]];
+}
+
 void take(const Model& model, State& state, std::uint32_t p, const Touch& t, double gap) {
   PairRecord& r = state.pairs.record[p];
   Load& load = state.pairs.load[p];
@@ -36,7 +40,7 @@ void take(const Model& model, State& state, std::uint32_t p, const Touch& t, dou
 
 void look_afresh(const Model& model, State& state, std::uint32_t p) {
   double gap = 0;
-  const Touch t = touch_pair(model, state.bodies, state.pairs.pair[p], state.pairs.record[p], gap);
+  const Touch t = touch_pair(model, state.bodies, state.pairs.pair[p], features_of(state.pairs, p), gap);
   take(model, state, p, t, gap);
 }
 
@@ -46,14 +50,14 @@ void look_at_rods(const Model& model, State& state, RodLooks& looks) {
     if (lost)
       look_afresh(model, state, p);
     else
-      take(model, state, p, t, state.pairs.record[p].features.due());
+      take(model, state, p, t, features_of(state.pairs, p).due());
   });
 }
 
-/// The record of a pair, soon to be used, on its way into the cache.
-void fetch(const PairRecord& record) {
-  const auto* line = reinterpret_cast<const char*>(&record);
-  for (std::size_t at = 0; at < sizeof(PairRecord); at += 64) __builtin_prefetch(line + at, 1);
+template <class T>
+void fetch(const T& value) {  // soon to be used, on its way into the cache
+  const auto* line = reinterpret_cast<const char*>(&value);
+  for (std::size_t at = 0; at < sizeof(T); at += 64) __builtin_prefetch(line + at, 1);
 }
 
 void look(const Model& model, State& state, std::uint32_t p, RodLooks& looks) {
@@ -61,13 +65,13 @@ void look(const Model& model, State& state, std::uint32_t p, RodLooks& looks) {
     look_at_patches(model, state, p, travel_of(state, p));
     return;
   }
-  PairRecord& r = state.pairs.record[p];
-  if (!r.features.known) {
+  RodFeatures& features = features_of(state.pairs, p);
+  if (!features.known) {
     look_afresh(model, state, p);
     return;
   }
   const auto [a, b] = state.pairs.pair[p];
-  looks.add(p, rod_of(model, state.bodies, a), rod_of(model, state.bodies, b), r.features);
+  looks.add(p, rod_of(model, state.bodies, a), rod_of(model, state.bodies, b), features);
   if (looks.full()) look_at_rods(model, state, looks);
 }
 
@@ -83,7 +87,10 @@ void touch(const Model& model, State& state) {
     for (std::size_t k = from; k < to; ++k)
       if (travel_of(state, active[k]) >= state.pairs.look_at[active[k]]) due.push_back(active[k]);
     for (std::size_t k = 0; k < due.size(); ++k) {
-      if (k + kAhead < due.size()) fetch(state.pairs.record[due[k + kAhead]]);
+      if (const std::size_t next = k + kAhead; next < due.size()) {
+        fetch(state.pairs.record[due[next]]);
+        if (!uses_fields(model)) fetch(features_of(state.pairs, due[next]));
+      }
       look(model, state, due[k], looks);
     }
     look_at_rods(model, state, looks);
