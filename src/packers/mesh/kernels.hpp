@@ -18,7 +18,7 @@ Rod rod_of(const Model& model, const Bodies& bodies, std::uint32_t i);
 
 /// The touch of a pair of spheres or cylinders (for fields see patches.hpp), of two bodies or of one with the
 /// container. When they are apart, gap is a lower bound of the way that their surfaces must go before they
-/// can touch [m].
+/// can touch [m]. features: of two cylinders, made afresh.
 Touch touch_pair(const Model& model, const Bodies& bodies, const BodyPair& pair, RodFeatures& features,
                  double& gap);
 

@@ -69,37 +69,33 @@ void keep_quiet_pairs(const State& state, std::vector<BodyPair>& pairs) {
       pairs.push_back(state.pairs.pair[p]);
 }
 
-/// Slots for what will be known of pairs that are new; those of pairs that are gone are vacant again. old: of
-/// each, its place in the list before, or none.
-void hand_out_slots(Pairs& pairs, const std::vector<std::uint32_t>& old) {
-  std::vector<std::uint8_t> stays(pairs.slot.size(), 0);
-  for (const std::uint32_t o : old)
-    if (o != kNone) stays[o] = 1;
-  for (std::size_t o = 0; o < stays.size(); ++o)
-    if (!stays[o]) pairs.vacant.push_back(pairs.slot[o]);
-  std::vector<std::uint32_t> slot(old.size());
-  for (std::size_t p = 0; p < old.size(); ++p) {
-    if (old[p] != kNone) {
-      slot[p] = pairs.slot[old[p]];
-      continue;
-    }
-    if (pairs.vacant.empty()) {
-      pairs.vacant.push_back(static_cast<std::uint32_t>(pairs.features.size()));
-      pairs.features.emplace_back();
-    }
-    slot[p] = pairs.vacant.back();
-    pairs.vacant.pop_back();
-    pairs.features[slot[p]].known = false;
-  }
-  pairs.slot.swap(slot);
-}
-
+/// Puts values into the order of the new list. old: of each pair its place in the list before, or kNone.
 template <class T>
 void carry(std::vector<T>& values, const std::vector<std::uint32_t>& old, const T& blank) {
   std::vector<T> now(old.size(), blank);
   for (std::size_t p = 0; p < old.size(); ++p)
     if (old[p] != kNone) now[p] = std::move(values[old[p]]);
   values.swap(now);
+}
+
+/// Slots for what will be known of pairs that are new; those of pairs that are gone are vacant again.
+void hand_out_slots(Pairs& pairs, const std::vector<std::uint32_t>& old) {
+  std::vector<std::uint32_t> left = pairs.slot;
+  for (const std::uint32_t o : old)
+    if (o != kNone) left[o] = kNone;
+  for (const std::uint32_t slot : left)
+    if (slot != kNone) pairs.vacant.push_back(slot);
+  carry(pairs.slot, old, kNone);
+  for (std::uint32_t& slot : pairs.slot) {
+    if (slot != kNone) continue;
+    if (pairs.vacant.empty()) {
+      pairs.vacant.push_back(static_cast<std::uint32_t>(pairs.features.size()));
+      pairs.features.emplace_back();
+    }
+    slot = pairs.vacant.back();
+    pairs.vacant.pop_back();
+    pairs.features[slot].known = false;
+  }
 }
 
 /// Carries what is known of pairs over to the new list; both lists ascend.
