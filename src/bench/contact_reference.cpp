@@ -20,7 +20,7 @@ using Sum = TouchSum<kCurveExponent>;
 struct Ring {
   Vec3 centre, u, v;
   double radius;
-  const Rod& other;
+  const Rod &owner, &other;
   double sign;
 
   Vec3 at(double phi) const { return centre + radius * (std::cos(phi) * u + std::sin(phi) * v); }
@@ -35,10 +35,18 @@ int add_part(Sum& sum, const Ring& ring, double from, double to, double finest) 
   if (std::max(rho - ring.other.radius, std::abs(z) - ring.other.half_height) > 0.5 * length) return 0;
   if (to - from > 1.5 * finest)
     return add_part(sum, ring, from, middle, finest) + add_part(sum, ring, middle, to, finest);
-  Vec3 slope;
-  const double d = depth_in_cylinder(y, ring.other.axis, ring.other.radius, ring.other.half_height, slope);
+  Vec3 slope, more_slope;
+  const Rod& other = ring.other;
+  const double d = depth_in_cylinder(y, other.axis, other.radius, other.half_height, slope);
   if (!(d > 0)) return 0;
-  sum.add(x, d, length, ring.sign * slope);
+  const double cosine = ring.owner.axis.dot(other.axis), sine2 = 1 - cosine * cosine;
+  const double more = more_at_edge(y, other.axis, other.radius, other.half_height, more_slope);
+  sum.add(x, d, length * (1 + sine2 * more), ring.sign * slope);
+  // the weight changes as the point moves and as the owner turns
+  const double power = length * depth_power<kCurveExponent>(d);
+  const Vec3 by_place = ring.sign * power * sine2 * more_slope;
+  const Vec3 by_turn = -ring.sign * 2 * cosine * power * more * ring.owner.axis.cross(other.axis);
+  sum.add_sums(0, by_place, x.cross(by_place) + by_turn, {}, 0);
   return 1;
 }
 
@@ -49,7 +57,7 @@ int add_circles(Sum& sum, const Rod& owner, const Rod& other, double sign, int p
   for (const auto& [wide, high] : kCircles)
     for (const double end : {-1.0, 1.0}) {
       const Vec3 centre = owner.centre + end * high * owner.half_height * owner.axis;
-      const Ring ring{centre, u, v, wide * owner.radius, other, sign};
+      const Ring ring{centre, u, v, wide * owner.radius, owner, other, sign};
       inside += add_part(sum, ring, 0, 2 * kPi, 2 * kPi / points);
     }
   return inside;

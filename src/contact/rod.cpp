@@ -25,6 +25,15 @@ double depth_in_cylinder(const Vec3& x, const Vec3& axis, double radius, double 
   return a + b - norm;
 }
 
+double more_at_edge(const Vec3& x, const Vec3& axis, double radius, double half_height, Vec3& slope) {
+  const double z = x.dot(axis), radius2 = radius * radius, height2 = half_height * half_height;
+  const Vec3 rho = x - z * axis;
+  const double wide = rho.squaredNorm() / radius2, high = z * z / height2;
+  const double near = kEdgeWeight * std::pow(wide * high, kEdgeSharpness - 1);
+  slope = 2.0 * kEdgeSharpness * near * (high / radius2 * rho + wide * z / height2 * axis);
+  return near * wide * high;
+}
+
 double separation(const Rod& a, const Rod& b) {
   const Vec3 w = b.centre - a.centre;
   double best = -1e300;

@@ -57,6 +57,12 @@ PACKBED_INLINE LaneVec plus(const LaneVec& a, const LaneVec& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
+PACKBED_INLINE Lanes to_fifteenth(const Lanes& v) {
+  static_assert(kEdgeSharpness == 16);
+  const Lanes v2 = v * v, v4 = v2 * v2;
+  return v4 * v4 * v4 * v2 * v;
+}
+
 /// The circle in the frame of the cylinder: z the height over its middle, y2 the square of the distance.
 struct Track {
   Lanes z0, z1, z2, y0, p, q, radius2, height2;
@@ -158,8 +164,9 @@ PACKBED_WIDE void follow(RodArcBatch& b) {
                               : Lanes{};
 
   const Lanes per_radius = 1.0 / b.rod_radius, per_height = 1.0 / b.half_height;
-  Lanes power{}, rate{}, rate_c{}, rate_s{}, rate_cc{}, rate_cs{}, side{}, side_c{}, side_s{}, axial{},
-      axial_c{}, axial_s{}, by_from{}, by_to{}, deepest{}, shallowest = Lanes{} + 1e300;
+  const Lanes cosine = dot(b.owner, b.axis), sine2 = one - cosine * cosine;
+  Lanes power{}, edge{}, rate{}, rate_c{}, rate_s{}, rate_cc{}, rate_cs{}, side{}, side_c{}, side_s{},
+      axial{}, axial_c{}, axial_s{}, by_from{}, by_to{}, deepest{}, shallowest = Lanes{} + 1e300;
   for (int k = 0; k < kNodes; ++k) {
     const std::size_t n = static_cast<std::size_t>(k);
     const Lanes xi = b.full > 0.0 ? Lanes{} + even_node(k) : Lanes{} + kGaussNode[n];
@@ -170,16 +177,22 @@ PACKBED_WIDE void follow(RodArcBatch& b) {
     t.go_to(s, c);
     const Lanes in_side = positive(0.5 * per_radius * t.side()),
                 in_cap = positive(0.5 * per_height * t.cap());
+    const Lanes wide = one - 2.0 * in_side * per_radius, high = one - 2.0 * in_cap * per_height;
     // depth = a + b - (a^4 + b^4)^(1/4)
     const Lanes side2 = in_side * in_side, cap2 = in_cap * in_cap;
     const Lanes norm2 = root_of(side2 * side2 + cap2 * cap2), norm = root_of(norm2) + 1e-300;
     const Lanes per_norm3 = 1.0 / (norm * norm * norm + 1e-300), d = positive(in_side + in_cap - norm);
     const Lanes slope_side = 1.0 - side2 * in_side * per_norm3, slope_cap = 1.0 - cap2 * in_cap * per_norm3;
-    const Lanes p = w * depth_power<kCurveExponent>(d), r = w * depth_power_slope<kCurveExponent>(d);
-    const Lanes r_side = r * slope_side * per_radius, r_cap = r * slope_cap * per_height;
+    const Lanes near = kEdgeWeight * to_fifteenth(wide * high), more = near * wide * high;
+    const Lanes even = w * depth_power<kCurveExponent>(d), p = even * (one + sine2 * more);
+    const Lanes r = w * depth_power_slope<kCurveExponent>(d) * (one + sine2 * more);
+    const Lanes near_slope = 2.0 * kEdgeSharpness * sine2 * even * near;
+    const Lanes r_side = (r * slope_side - near_slope * high * per_radius) * per_radius,
+                r_cap = (r * slope_cap - near_slope * wide * per_height) * per_height;
     const Lanes along = 0.5 * (r_side * t.side_dot() + r_cap * t.cap_dot()) * length;
     const Lanes r_axial = (r_side - r_cap) * t.z;
     power += p;
+    edge += even * more;
     by_from += along * (1.0 - place) - p;
     by_to += along * place + p;
     rate += r;
@@ -206,7 +219,7 @@ PACKBED_WIDE void follow(RodArcBatch& b) {
   LaneVec force = plus(times(-l * side, b.centre), plus(times(-lr, swing_side), times(l * axial, b.axis)));
   const LaneVec lever =
       plus(times(l * axial, b.centre), times(lr, plus(times(axial_c, e1), times(axial_s, e2))));
-  LaneVec torque = cross(lever, b.axis);
+  LaneVec torque = cross(plus(lever, times(-2.0 * l * cosine * edge, b.owner)), b.axis);
   add_end(b, from, e1, e2, keep * b.radius * by_from, force, torque);
   add_end(b, to, e1, e2, keep * b.radius * by_to, force, torque);
   put(b, kForceX, times(b.sign, force));

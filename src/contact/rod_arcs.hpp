@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 
+#include "contact/rod.hpp"
 #include "contact/touch.hpp"
 
 namespace packbed {

@@ -183,9 +183,11 @@ double delta_of_rims(const Rod& a, const Rod& b) {
         const double phi = 2 * kPi * i / kSamples;
         const Vec3 x = owner.centre + end * owner.half_height * owner.axis +
                        owner.radius * (std::cos(phi) * u + std::sin(phi) * v);
+        const Vec3 y = x - other.centre;
         Vec3 slope;
-        sum += std::pow(
-            depth_in_cylinder(x - other.centre, other.axis, other.radius, other.half_height, slope), 16);
+        const double sine2 = 1 - std::pow(owner.axis.dot(other.axis), 2);
+        sum += std::pow(depth_in_cylinder(y, other.axis, other.radius, other.half_height, slope), 16) *
+               (1 + sine2 * more_at_edge(y, other.axis, other.radius, other.half_height, slope));
       }
   };
   add_rims(a, b);
