@@ -272,6 +272,35 @@ TEST(Cylinders, StiffnessIsEvenOverKindsOfTouch) {
   EXPECT_LT(stiffest / softest, 5);
 }
 
+/// A cylinder whose edge has its foremost point, along `up`, at `at`: the cap there faces `tilt` away from
+/// up.
+Rod edge_at(const Vec3& at, const Vec3& up, const Vec3& aside, double tilt) {
+  const Vec3 axis = std::cos(tilt) * up + std::sin(tilt) * aside;
+  const Vec3 outward = std::sin(tilt) * up - std::cos(tilt) * aside;
+  return {at - kHalfHeight * axis - kRadius * outward, axis, kRadius, kHalfHeight};
+}
+
+TEST(Cylinders, CrossingEdgesAreNoSoftSpot) {
+  const double depth = 0.005 * 2 * kRadius;
+  const auto stiffness = [&](const Rod& below, const Rod& above) {
+    const Touch t = touch_cylinders(below, above);
+    return t.delta * t.gradient.norm() / depth;
+  };
+  const Vec3 up = Vec3::UnitZ(), x = Vec3::UnitX();
+  const double caps = stiffness({-kHalfHeight * up, up, kRadius, kHalfHeight},
+                                {(kHalfHeight - depth) * up, up, kRadius, kHalfHeight});
+  for (const double crossing : {30.0, 60.0, 90.0, 120.0})
+    for (const double below : {20.0, 45.0, 70.0})
+      for (const double above : {20.0, 45.0, 70.0}) {
+        const double turn = crossing * kPi / 180;
+        const Vec3 aside(std::cos(turn), std::sin(turn), 0);
+        const double edges = stiffness(edge_at(Vec3::Zero(), up, x, below * kPi / 180),
+                                       edge_at(-depth * up, -up, aside, above * kPi / 180));
+        EXPECT_GT(edges, caps / 5) << crossing << " " << below << " " << above;
+        EXPECT_LT(edges, caps) << crossing << " " << below << " " << above;
+      }
+}
+
 TEST(Cylinders, FloorAndTubeForcesAreGradients) {
   for (unsigned k = 0; k < 300; ++k) {
     Random random(7, Stream::test, k);
