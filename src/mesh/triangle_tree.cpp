@@ -10,6 +10,8 @@ namespace packbed {
 namespace {
 
 constexpr std::int32_t kLeaf = 4;
+/// Places that are nearer to one another are one, fraction of the distance that is looked at.
+constexpr double kSamePlace = 1e-6;
 
 double corner_angle(const Vec3& at, const Vec3& to, const Vec3& other) {
   const Vec3 u = to - at, v = other - at;
@@ -91,10 +93,10 @@ double TriangleTree::sign_at(const Vec3& from_surface, std::int32_t triangle, in
   return from_surface.dot(n) < 0 ? -1 : 1;
 }
 
-TriangleTree::Nearest TriangleTree::nearest(const Vec3& p, double bound) const {
-  double best2 = bound * bound;
-  TrianglePoint at;
-  std::int32_t found = -1;
+/// Calls visit(triangle) for the triangles of all leaves that come nearer than sqrt(bound2), near ones first;
+/// visit may lower it.
+template <class Visit>
+void TriangleTree::visit_within(const Vec3& p, double& bound2, const Visit& visit) const {
   struct Item {
     std::int32_t node;
     double distance2;
@@ -104,14 +106,10 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& p, double bound) const {
   stack[size++] = {0, nodes_[0].box.squaredExteriorDistance(p)};
   while (size > 0) {
     const Item item = stack[--size];
-    if (item.distance2 >= best2) continue;
+    if (item.distance2 >= bound2) continue;
     const Node& node = nodes_[static_cast<std::size_t>(item.node)];
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      const Triangle& t = triangles_[static_cast<std::size_t>(i)];
-      const TrianglePoint candidate = closest_on_triangle(p, t.a, t.b, t.c);
-      const double distance2 = (p - candidate.point).squaredNorm();
-      if (distance2 < best2) best2 = distance2, at = candidate, found = t.index;
-    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i)
+      visit(triangles_[static_cast<std::size_t>(i)]);
     if (node.count > 0) continue;
     Item near{node.first, nodes_[static_cast<std::size_t>(node.first)].box.squaredExteriorDistance(p)};
     Item far{node.first + 1, nodes_[static_cast<std::size_t>(node.first) + 1].box.squaredExteriorDistance(p)};
@@ -119,6 +117,17 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& p, double bound) const {
     stack[size++] = far;
     stack[size++] = near;
   }
+}
+
+TriangleTree::Nearest TriangleTree::nearest(const Vec3& p, double bound) const {
+  double best2 = bound * bound;
+  TrianglePoint at;
+  std::int32_t found = -1;
+  visit_within(p, best2, [&](const Triangle& t) {
+    const TrianglePoint candidate = closest_on_triangle(p, t.a, t.b, t.c);
+    const double distance2 = (p - candidate.point).squaredNorm();
+    if (distance2 < best2) best2 = distance2, at = candidate, found = t.index;
+  });
   Nearest result;
   result.triangle = found;
   result.distance = bound;
@@ -126,6 +135,43 @@ TriangleTree::Nearest TriangleTree::nearest(const Vec3& p, double bound) const {
   result.point = at.point;
   result.distance = std::sqrt(best2) * sign_at(p - at.point, found, at.feature);
   return result;
+}
+
+void TriangleTree::nearest_places(const Vec3& p, double bound, std::vector<Nearest>& places) const {
+  struct Candidate {
+    double distance2;
+    TrianglePoint at;
+    const Triangle* triangle;
+  };
+  thread_local std::vector<Candidate> candidates;
+  candidates.clear();
+  double bound2 = bound * bound;
+  visit_within(p, bound2, [&](const Triangle& t) {
+    const TrianglePoint at = closest_on_triangle(p, t.a, t.b, t.c);
+    const double distance2 = (p - at.point).squaredNorm();
+    if (distance2 < bound2) candidates.push_back({distance2, at, &t});
+  });
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.triangle->index < b.triangle->index);
+  });
+  places.clear();
+  const double same2 = kSamePlace * kSamePlace * bound2;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Candidate& c = candidates[k];
+    if (sign_at(p - c.at.point, c.triangle->index, c.at.feature) < 0) {
+      if (k > 0) continue;  // the far side of a thin wall
+      places.push_back({-std::sqrt(c.distance2), c.at.point, c.triangle->index});
+      return;
+    }
+    // an edge or a corner of a nearer triangle: the way down goes on in that one
+    bool place = true;
+    for (std::size_t j = 0; j < k && place && c.at.feature != 0; ++j) {
+      const Triangle& t = *candidates[j].triangle;
+      place = (closest_on_triangle(c.at.point, t.a, t.b, t.c).point - c.at.point).squaredNorm() > same2;
+    }
+    for (const Nearest& other : places) place = place && (other.point - c.at.point).squaredNorm() > same2;
+    if (place) places.push_back({std::sqrt(c.distance2), c.at.point, c.triangle->index});
+  }
 }
 
 }  // namespace packbed

@@ -24,6 +24,10 @@ class TriangleTree {
   /// (2005) 243), which is exact for closed meshes.
   Nearest nearest(const Vec3& p, double bound = std::numeric_limits<double>::infinity()) const;
   double signed_distance(const Vec3& p) const { return nearest(p).distance; }
+  /// Every place of the surface that is nearer to p than all of the surface round it, and nearer than `bound`
+  /// [m]: one on a flat face, however it is cut into triangles, three in a corner of a room. Only those that
+  /// p faces; inside of the mesh, the nearest alone. In place of what `places` holds, nearest first.
+  void nearest_places(const Vec3& p, double bound, std::vector<Nearest>& places) const;
 
  private:
   struct Node {
@@ -35,6 +39,8 @@ class TriangleTree {
     std::int32_t index = 0;
   };
   void split(std::int32_t node, std::vector<Triangle>& triangles);
+  template <class Visit>
+  void visit_within(const Vec3& p, double& bound2, const Visit& visit) const;
   double sign_at(const Vec3& from_surface, std::int32_t triangle, int feature) const;
 
   std::vector<Node> nodes_;

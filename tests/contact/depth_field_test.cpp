@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "../shapes.hpp"
 #include "math/random.hpp"
 #include "mesh/inside.hpp"
@@ -36,6 +38,32 @@ TEST(TriangleTree, FindsNothingBeyondTheBound) {
   const TriangleTree tree(a38_mesh());
   EXPECT_EQ(tree.nearest({0, 0, 3.73e-3}, 1.9e-3).triangle, -1);
   EXPECT_NEAR(tree.nearest({0, 0, 3.73e-3}, 2.1e-3).distance, 2e-3, 1e-15);
+}
+
+// A room 40 x 40 x 60 mm: each side and the floor are cut into two triangles along a diagonal.
+TEST(TriangleTree, SeesOnePlaceOnAFaceAndOneMoreForEachWallOfACorner) {
+  const TriangleTree tree(test::square_cup(20e-3, 60e-3, 1e-3));
+  std::vector<TriangleTree::Nearest> places;
+  Random random(2, Stream::test, 0);
+  for (int i = 0; i < 2000; ++i) {
+    Vec3 x(random.uniform(-19.9e-3, 19.9e-3), random.uniform(-19.9e-3, 19.9e-3),
+           random.uniform(0.1e-3, 30e-3));
+    if (i % 3 == 0) x.y() = -x.x() + (i % 2) * 1e-9;  // over the diagonal of the floor, and just beside it
+    if (i % 5 == 0) x.x() = 20e-3 - 1e-4;
+    tree.nearest_places(x, 2e-3, places);
+    std::vector<double> walls;
+    for (const double d : {20e-3 - x.x(), 20e-3 + x.x(), 20e-3 - x.y(), 20e-3 + x.y(), x.z()})
+      if (d < 2e-3) walls.push_back(d);
+    std::sort(walls.begin(), walls.end());
+    ASSERT_EQ(places.size(), walls.size()) << x.transpose();
+    for (std::size_t k = 0; k < walls.size(); ++k) EXPECT_NEAR(places[k].distance, walls[k], 1e-15);
+  }
+  tree.nearest_places({0, 0, -0.4e-3}, 2e-3, places);  // in the material of the floor
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_NEAR(places[0].distance, -0.4e-3, 1e-15);
+  tree.nearest_places({0, 20.3e-3, 60.4e-3}, 2e-3, places);  // over the rim
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_NEAR(places[0].distance, 0.4e-3, 1e-15);
 }
 
 TEST(DepthField, IsZeroOnTheSurfaceAndOutsideAndOfUnitSlopeThere) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "laws/law.hpp"
+#include "shapes.hpp"
 
 namespace packbed {
 namespace {
@@ -46,6 +47,32 @@ INSTANTIATE_TEST_SUITE_P(Of, BoxSides,
 INSTANTIATE_TEST_SUITE_P(Meshes, BoxSides,
                          testing::Combine(testing::Values("mesh"), testing::Values(0, 1),
                                           testing::Range(0, 4)));
+
+// A cup that is only a mesh: on its faces, and over the diagonals that these are cut along, as on exact
+// sides.
+TEST(Box, ThatIsOnlyAMeshTurnsSpheresBackAsExactSidesDo) {
+  for (int i = 0; i < 6; ++i) {
+    const auto thrown = [&](const Container& container) {
+      Scene s = scene(ContainerKind::none, make_sphere("ball", 2e-3));
+      s.method = "spheres";
+      s.container = container;
+      set_contact(s, 0.3, 0.1);
+      PlacedPellet& p = place(s, i < 5 ? Vec3(2e-3, -2e-3, 2.1e-3) : Vec3(17.9e-3, 3e-3, 20e-3));
+      p.velocity = i < 5 ? Vec3(0.1 * i, 0.1, -0.5) : Vec3(0.5, 0.1, 0.2);
+      p.spin = {20, -10, 5};
+      return run(s, 4e-3).end();
+    };
+    Container cup;
+    cup.kind = ContainerKind::mesh;
+    cup.radius = 20e-3;
+    cup.height = 60e-3;
+    cup.surface = test::square_cup(20e-3, 60e-3, 1e-3);
+    const Pellet in_cup = thrown(cup), in_box = thrown(make_box("box", 40e-3, 40e-3, 60e-3));
+    EXPECT_LT((in_cup.velocity - in_box.velocity).norm(), 1e-9) << i;
+    EXPECT_LT((in_cup.spin - in_box.spin).norm(), 1e-5) << i;
+    EXPECT_GT((in_box.velocity - Vec3(0.1 * i, 0.1, -0.5)).norm(), 0.1);  // it has hit
+  }
+}
 
 TEST(Box, HoldsAPour) {
   for (const char* method : {"spheres", "mesh"}) {

@@ -153,11 +153,7 @@ Model make_model(const Scene& scene) {
   model.stepping = scene.stepping;
   model.gear = scene.stepping.gear;
   const Extremes e = extremes_of(model.kinds);
-  if (scene.container.kind == ContainerKind::mesh) {
-    std::vector<ShapePtr> shapes;
-    for (const PelletKind& pellet : scene.pellets) shapes.push_back(pellet.shape);
-    model.solid = std::make_shared<SolidWall>(scene.container, shapes, 2.0 * e.smallest);
-  }
+  if (scene.container.kind == ContainerKind::mesh) model.solid = std::make_shared<SolidWall>(scene.container);
   const double speed = impact_speed(scene);
   model.smallest_stiffness =
       stiffness_of(model.pellet_law, 0.5 * e.smallest, 0.5 * mass_of(e.smallest, e.density), speed);

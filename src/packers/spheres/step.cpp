@@ -81,8 +81,7 @@ std::vector<Quad> sides_of(const Model& model, const State& state, std::size_t f
     const Quad& x = s.place[i];
     Vec3 normal = Vec3::UnitZ();
     double distance = -kNoWall.w;
-    if (state.walls.b(p) == 0)
-      model.solid->side(s.kind[i], s.scale[i], x.w, Vec3(x.x, x.y, x.z), normal, distance);
+    if (state.walls.b(p) == 0) model.solid->side(x.w, Vec3(x.x, x.y, x.z), normal, distance);
     sides.push_back({normal.x(), normal.y(), normal.z(), distance});
   }
   return sides;
