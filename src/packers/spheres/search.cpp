@@ -7,6 +7,7 @@
 
 #include "dynamics/level_grid.hpp"
 #include "math/threads.hpp"
+#include "packers/spheres/account.hpp"
 #include "packers/spheres/chunks.hpp"
 #include "packers/spheres/step.hpp"
 
@@ -272,17 +273,10 @@ void settle_accounts(State& state) {
 void feed(const Model& model, State& state, Feeder& feeder) {
   if (state.time + 0.5 * model.step < feeder.next_time()) return;
   const Spheres& s = state.spheres;
-  std::vector<Pellet> present(s.size());
   double surface = 0;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    Pellet& p = present[s.id[i]];
-    p.id = s.id[i];
-    p.shape = s.kind[i];
-    p.scale = s.scale[i];
-    p.pose.position = vec(s.place[i]);
+  for (std::size_t i = 0; i < s.size(); ++i)
     if (vec(s.velocity[i]).norm() < kSurfaceSpeed) surface = std::max(surface, s.place[i].z + s.place[i].w);
-  }
-  const std::vector<Pellet> entering = feeder.enter(state.time, present, surface);
+  const std::vector<Pellet> entering = feeder.enter(state.time, pellets_of(state), surface);
   for (const Pellet& pellet : entering) enter(model, state, pellet);
   if (!entering.empty()) state.search_due = 1;
   if (feeder.waiting()) state.waited = 1;
