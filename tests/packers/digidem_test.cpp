@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../shapes.hpp"
+#include "math/error.hpp"
 #include "math/threads.hpp"
 #include "packers/packer.hpp"
 
@@ -51,6 +52,19 @@ TEST(DigiDem, APelletOnItsEdgeFallsOver) {
   const PackResult r = pack_lattice(scene_of({tilted}, 0.5, 0.4), {});
   EXPECT_TRUE(r.record.at_rest);
   EXPECT_NEAR(r.bed.pellets[0].pose.position.z(), 1.5e-3, 0.5 * kVoxel);
+}
+
+TEST(DigiDem, RefusesAStepThatItsContactsCannotBear) {
+  Scene s = scene_of({at({0, 0, 3e-3})}, 0.5, 0.4);
+  s.case_file = "coarse.toml";
+  s.stepping.step = 1e-3;
+  try {
+    pack_lattice(s, {});
+    FAIL() << "a step of 1 ms was taken";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("coarse.toml: stepping.step"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("leave the step out"), std::string::npos) << e.what();
+  }
 }
 
 TEST(DigiDem, TwoPelletsKeepTheirMomentum) {

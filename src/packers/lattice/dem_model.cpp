@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "packers/expect.hpp"
 #include "packers/lattice/dem.hpp"
 
 namespace packbed::lattice {
@@ -42,7 +43,7 @@ DemModel make_dem_model(const Scene& scene) {
   const double lightest = *std::min_element(model.mass.begin(), model.mass.end());
   const double contact =
       kPi * std::sqrt(lightest / std::max(2 * model.pellet.stiffness, model.wall.stiffness));
-  model.step = scene.stepping.step > 0 ? scene.stepping.step : contact / scene.stepping.steps_per_contact;
+  model.step = step_for(scene, contact, "leave the step out, or lower contact.stiffness");
   model.skin = scene.stepping.skin > 0 ? scene.stepping.skin : 0.2 * model.base.largest;
   return model;
 }
