@@ -8,20 +8,12 @@
 namespace packbed::lattice {
 namespace {
 
-double landing_speed(const Scene& scene) {
-  double fall = scene.feed.kind == FeedKind::placed ? 0.0 : scene.feed.drop_height, speed = scene.feed.speed;
-  for (const PlacedPellet& p : scene.feed.placed) {
-    fall = std::max(fall, p.pose.position.z());
-    speed = std::max(speed, p.velocity.norm());
-  }
-  constexpr double kLeast = 0.1;  // [m/s]; a bed that is only placed still has to carry itself
-  return std::max(kLeast, std::sqrt(speed * speed + 2 * scene.gravity.norm() * std::max(0.0, fall)));
-}
+constexpr double kLeastSpeed = 0.1;  // [m/s]; a bed that is only placed still has to carry itself
 
 /// As given, or "the hardest impact of one pellet on a wall may overlap by so much".
 DemLaw law_of(const Scene& scene, const DemModel& model, const ContactLaw& law) {
   DemLaw out{law.stiffness, law.damping_ratio, law.friction};
-  const double speed = landing_speed(scene);
+  const double speed = std::max(kLeastSpeed, landing_speed(scene));
   if (!(law.stiffness > 0))
     for (std::size_t k = 0; k < model.mass.size(); ++k)
       out.stiffness = std::max(
