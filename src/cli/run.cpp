@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <thread>
 
@@ -26,23 +27,34 @@ void use_threads(int wanted) {
   set_threads(wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
-int pack_into(const ResultFolder& folder, const Scene& scene, std::span<const std::byte> state, bool quiet) {
+std::unique_ptr<TrajectoryWriter> trajectory_in(const ResultFolder& folder, const Scene& scene,
+                                                bool goes_on) {
+  std::vector<ShapePtr> shapes;
+  for (const PelletKind& kind : scene.pellets) shapes.push_back(kind.shape);
+  const int pellets = scene.feed.kind == FeedKind::placed ? static_cast<int>(scene.feed.placed.size())
+                                                          : scene.feed.count.value_or(kSmallScene + 1);
+  return std::make_unique<TrajectoryWriter>(folder, shapes, pellets, goes_on);
+}
+
+/// open: makes the folder, once it is known that the scene can be packed: a scene that is refused leaves
+/// nothing behind and costs no earlier results.
+int pack_into(const std::function<ResultFolder()>& open, const Scene& scene, std::span<const std::byte> state,
+              bool quiet) {
   ProgressLine line(quiet);
   Watch watch;
+  ResultFolder folder;
+  std::unique_ptr<TrajectoryWriter> trajectory;
   watch.stop = &stop_asked;
   watch.progress = [&](const Progress& p) { line.show(p); };
   watch.checkpoint = [&](std::span<const std::byte> bytes) {
     write_checkpoint(folder.file(result_file::kCheckpoint), scene.case_text, bytes);
   };
-  std::unique_ptr<TrajectoryWriter> trajectory;
-  if (scene.output.trajectory_interval > 0) {
-    std::vector<ShapePtr> shapes;
-    for (const PelletKind& kind : scene.pellets) shapes.push_back(kind.shape);
-    const int pellets = scene.feed.kind == FeedKind::placed ? static_cast<int>(scene.feed.placed.size())
-                                                            : scene.feed.count.value_or(kSmallScene + 1);
-    trajectory = std::make_unique<TrajectoryWriter>(folder, shapes, pellets, !state.empty());
+  watch.accepted = [&] {
+    folder = open();
+    if (scene.output.trajectory_interval > 0) trajectory = trajectory_in(folder, scene, !state.empty());
+  };
+  if (scene.output.trajectory_interval > 0)
     watch.snapshot = [&](const Snapshot& snapshot) { trajectory->add(snapshot); };
-  }
   std::signal(SIGINT, [](int) { stop_asked = true; });
   std::signal(SIGTERM, [](int) { stop_asked = true; });
   PackResult result = pack(scene, watch, state);
@@ -66,9 +78,13 @@ int run(const RunOptions& options) {
   }
   use_threads(options.threads);
   const std::string path = options.out.empty() ? "results/" + scene.name : options.out;
-  const ResultFolder folder = new_result_folder(path, options.force);
-  write_atomically(folder.file(result_file::kCase), scene.case_text);
-  return pack_into(folder, scene, {}, options.quiet);
+  require_new_folder(path, options.force);
+  const auto open = [&] {
+    ResultFolder folder = new_result_folder(path, options.force);
+    write_atomically(folder.file(result_file::kCase), scene.case_text);
+    return folder;
+  };
+  return pack_into(open, scene, {}, options.quiet);
 }
 
 int resume(const ResumeOptions& options) {
@@ -83,7 +99,7 @@ int resume(const ResumeOptions& options) {
   std::vector<std::byte> state;  // killed before the first checkpoint: from the start
   if (folder.has(result_file::kCheckpoint))
     state = read_checkpoint(folder.file(result_file::kCheckpoint), scene.case_text).state;
-  return pack_into(folder, scene, state, options.quiet);
+  return pack_into([&] { return folder; }, scene, state, options.quiet);
 }
 
 }  // namespace packbed::cli

@@ -99,22 +99,27 @@ bool ResultFolder::has(std::string_view name) const {
   return fs::exists(file(name), ignored);
 }
 
-ResultFolder new_result_folder(const std::string& path, bool force, long long bytes_needed) {
-  make_folder(path);
-  const ResultFolder folder{path, lock_of(path)};
+void require_new_folder(const std::string& path, bool force) {
   std::error_code error;
-  const bool empty = fs::is_empty(path, error);
+  const ResultFolder folder{path, nullptr};
+  if (force || !fs::is_directory(path, error) || fs::is_empty(path, error)) return;
   if (error)
     throw InputError(path, "a folder that cannot be read (" + error.message() + ")",
                      "a folder that can be written", "give another one with --out");
-  if (!empty && !force) {
-    const bool interrupted = folder.has(result_file::kCheckpoint) && !folder.has(result_file::kSummary);
-    throw InputError(path, interrupted ? "the folder of an interrupted run" : "a folder that is not empty",
-                     "a new or empty folder",
-                     interrupted
-                         ? "continue it with `packbed resume " + path + "`, or overwrite it with --force"
-                         : "give another one with --out, or overwrite it with --force");
-  }
+  const bool interrupted = folder.has(result_file::kCheckpoint) && !folder.has(result_file::kSummary);
+  throw InputError(path, interrupted ? "the folder of an interrupted run" : "a folder that is not empty",
+                   "a new or empty folder",
+                   interrupted
+                       ? "continue it with `packbed resume " + path + "`, or overwrite it with --force"
+                       : "give another one with --out, or overwrite it with --force");
+}
+
+ResultFolder new_result_folder(const std::string& path, bool force, long long bytes_needed) {
+  make_folder(path);
+  const ResultFolder folder{path, lock_of(path)};
+  require_new_folder(path, force);
+  std::error_code error;
+  const bool empty = fs::is_empty(path, error);
   try {
     prove_writable(folder);
     if (!empty) remove_earlier_run(folder);

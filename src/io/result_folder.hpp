@@ -28,6 +28,9 @@ struct ResultFolder {
   bool has(std::string_view name) const;
 };
 
+/// Throws InputError when the folder is there and not empty, unless `force`: asked before anything is set up.
+void require_new_folder(const std::string& path, bool force);
+
 /// A folder for a new run, made with its parents; proves that it can be written by writing a probe, before
 /// hours of work go into it. `bytes_needed`: what the run will write at least [byte]. Throws InputError when
 /// it exists and is not empty, unless `force`: then the files of the earlier run (and only those that packbed

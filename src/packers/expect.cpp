@@ -1,11 +1,10 @@
 #include "packers/expect.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "math/error.hpp"
+#include "math/quantity.hpp"
 #include "packers/feed.hpp"
 
 namespace packbed {
@@ -36,9 +35,10 @@ double step_for(const Scene& scene, double contact, const std::string& fix) {
   const double step = asked.step > 0 ? asked.step : contact / asked.steps_per_contact;
   // below six steps a contact the explicit scheme gains energy in deep touches (docs/mesh_packer.md)
   if (step > contact / 6.0)
-    throw InputError(
-        scene.case_file + ": stepping.step", fmt::format("{:.3g} us", 1e6 * step),
-        fmt::format("at most {:.3g} us, a sixth of the stiffest contact's time", 1e6 * contact / 6.0), fix);
+    throw InputError(scene.case_file + ": stepping.step", format_quantity(step, Dimension::time),
+                     "at most " + format_quantity(contact / 6.0, Dimension::time, 3) +
+                         ", a sixth of the stiffest contact's time",
+                     fix);
   return step;
 }
 

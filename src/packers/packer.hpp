@@ -37,6 +37,7 @@ struct Snapshot {
 /// How the world outside sees a running packer. All calls come from the thread that runs it; empty ones are
 /// skipped.
 struct Watch {
+  std::function<void()> accepted;                              // the scene can be packed; the run begins
   std::function<void(const Progress&)> progress;               // a few times a second
   std::function<void(std::span<const std::byte>)> checkpoint;  // the whole state of the run
   std::function<void(const Snapshot&)> snapshot;               // every output.trajectory_interval

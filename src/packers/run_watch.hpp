@@ -13,6 +13,12 @@ class RunWatch {
  public:
   RunWatch(const Watch& watch, const OutputWish& output) : watch_(watch), output_(output) {}
 
+  /// The scene has been set up, and with it refused if it has to be.
+  void begin(RunRecord& record) const {
+    record.time.setup_s = wall_seconds() - wall_start_;
+    if (watch_.accepted) watch_.accepted();
+  }
+
   /// Run offers steps(), time(), step_time(), progress(), snapshot(pellets), save(), and the counters
   /// snapshots, wall_s and cpu_s of its state; nothing that is packed changes.
   template <class Run>

@@ -1,28 +1,15 @@
 // packbed check: exit codes and what is said where.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <string>
+
+#include "cli/program.hpp"
 
 namespace packbed {
 namespace {
 
-struct Ran {
-  int code = -1;
-  std::string output;  // both streams
-};
-
 Ran check(const std::string& arguments) {
-  Ran ran;
-  std::FILE* pipe = ::popen(("'" PACKBED_PROGRAM "' check " + arguments + " 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    ran.output.append(buffer.data(), n);
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status)) ran.code = WEXITSTATUS(status);
-  return ran;
+  return run_program("check " + arguments);
 }
 
 const std::string kMeshes = PACKBED_SOURCE_DIR "/meshes/";

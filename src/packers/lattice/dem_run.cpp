@@ -140,14 +140,13 @@ PackedBed bed_of(const DemModel& model, const DemState& state) {
 
 PackResult pack_digidem(const Scene& scene, const Watch& watch, std::span<const std::byte> bytes) {
   RunWatch watcher(watch, scene.output);
-  const double begin = wall_seconds();
   const DemModel model = make_dem_model(scene);
   Feeder feeder(scene);
   DemState state(model);
   if (!bytes.empty()) restore(bytes, model, state, feeder);
   PackResult result;
   RunRecord& record = result.record;
-  record.time.setup_s = wall_seconds() - begin;
+  watcher.begin(record);
   Run run{model, state, feeder};
   while (!run.ended() && !result.stopped) {
     run.step();

@@ -58,14 +58,13 @@ bool packs_on_lattice(const std::string& method) {
 PackResult pack_lattice(const Scene& scene, const Watch& watch, std::span<const std::byte> bytes) {
   if (scene.method == "digidem") return pack_digidem(scene, watch, bytes);
   RunWatch watcher(watch, scene.output);
-  const double begin = wall_seconds();
   const Model model = make_model(scene);
   Feeder feeder(scene);
   State state(model);
   if (!bytes.empty()) restore(bytes, model, state, feeder);
   PackResult result;
   RunRecord& record = result.record;
-  record.time.setup_s = wall_seconds() - begin;
+  watcher.begin(record);
   Run run{model, state, feeder};
   while (!run.ended() && !result.stopped) {
     run.step();

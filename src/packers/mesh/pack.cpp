@@ -42,15 +42,14 @@ struct Run {
 
 PackResult pack_mesh(const Scene& scene, const Watch& watch, std::span<const std::byte> bytes) {
   RunWatch watcher(watch, scene.output);
-  const double began = wall_seconds();
   const Model model = make_model(scene);
   Feeder feeder(scene);
   State state;
   if (!bytes.empty()) restore(bytes, state, feeder);
   PhaseTimes times{};
   PackResult result;
-  result.record.time.setup_s = wall_seconds() - began;
   if (bytes.empty() && scene.feed.kind == FeedKind::placed) begin(model, state, feeder);
+  watcher.begin(result.record);
   Run run{model, state, feeder};
   while (!finished(model, state, feeder) && !result.stopped) {
     step(model, state, feeder, times);

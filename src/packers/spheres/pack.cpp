@@ -35,14 +35,13 @@ struct Run {
 
 PackResult pack_spheres(const Scene& scene, const Watch& watch, std::span<const std::byte> bytes) {
   RunWatch watcher(watch, scene.output);
-  const double begin = wall_seconds();
   const Model model = make_model(scene);
   Feeder feeder(scene);
   State state;
   if (!bytes.empty()) restore(bytes, state, feeder);
   PackResult result;
   RunRecord& record = result.record;
-  record.time.setup_s = wall_seconds() - begin;
+  watcher.begin(record);
   Run run{model, state, feeder};
   while (!run.ended() && !result.stopped) {
     step(model, state, feeder, run.times);
