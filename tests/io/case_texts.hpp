@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/case.hpp"
+#include "io/temporary_folder.hpp"
 #include "math/error.hpp"
 
 namespace packbed {
@@ -76,13 +77,7 @@ inline std::string refusal(const std::string& text, const std::vector<std::strin
 /// An empty folder of its own for the test that runs.
 class CaseFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / fs::path(std::string("packbed_case_") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "sub");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { fs::create_directories(folder_ / "sub"); }
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return (folder_ / name).string();
@@ -95,7 +90,8 @@ class CaseFiles : public testing::Test {
     }
     return "";
   }
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 }  // namespace packbed
