@@ -53,8 +53,9 @@ int pack_into(const std::function<ResultFolder()>& open, const Scene& scene, std
     folder = open();
     if (scene.output.trajectory_interval > 0) trajectory = trajectory_in(folder, scene, !state.empty());
   };
-  if (scene.output.trajectory_interval > 0)
-    watch.snapshot = [&](const Snapshot& snapshot) { trajectory->add(snapshot); };
+  watch.snapshot = [&](const Snapshot& snapshot) {
+    trajectory->add(snapshot);
+  };  // at an interval, else never
   std::signal(SIGINT, [](int) { stop_asked = true; });
   std::signal(SIGTERM, [](int) { stop_asked = true; });
   PackResult result = pack(scene, watch, state);

@@ -101,11 +101,13 @@ bool ResultFolder::has(std::string_view name) const {
 
 void require_new_folder(const std::string& path, bool force) {
   std::error_code error;
-  const ResultFolder folder{path, nullptr};
-  if (force || !fs::is_directory(path, error) || fs::is_empty(path, error)) return;
+  if (!fs::is_directory(path, error)) return;
+  const bool empty = fs::is_empty(path, error);
   if (error)
     throw InputError(path, "a folder that cannot be read (" + error.message() + ")",
                      "a folder that can be written", "give another one with --out");
+  if (empty || force) return;
+  const ResultFolder folder{path};
   const bool interrupted = folder.has(result_file::kCheckpoint) && !folder.has(result_file::kSummary);
   throw InputError(path, interrupted ? "the folder of an interrupted run" : "a folder that is not empty",
                    "a new or empty folder",
@@ -118,11 +120,9 @@ ResultFolder new_result_folder(const std::string& path, bool force, long long by
   make_folder(path);
   const ResultFolder folder{path, lock_of(path)};
   require_new_folder(path, force);
-  std::error_code error;
-  const bool empty = fs::is_empty(path, error);
   try {
     prove_writable(folder);
-    if (!empty) remove_earlier_run(folder);
+    remove_earlier_run(folder);
   } catch (const fs::filesystem_error& e) {
     throw SystemError(fmt::format("{}: {}", path, e.code().message()));
   }

@@ -28,7 +28,8 @@ struct ResultFolder {
   bool has(std::string_view name) const;
 };
 
-/// Throws InputError when the folder is there and not empty, unless `force`: asked before anything is set up.
+/// Throws InputError when the folder is there and cannot be read, or is not empty, unless `force`: asked
+/// before anything is set up.
 void require_new_folder(const std::string& path, bool force);
 
 /// A folder for a new run, made with its parents; proves that it can be written by writing a probe, before

@@ -30,6 +30,10 @@ double landing_speed(const Scene& scene) {
   return std::sqrt(speed * speed + 2.0 * scene.gravity.norm() * std::max(0.0, fall));
 }
 
+double hardest_impact(const Scene& scene) {
+  return std::max(landing_speed(scene), 0.1);
+}
+
 double step_for(const Scene& scene, double contact, const std::string& fix) {
   const Stepping& asked = scene.stepping;
   const double step = asked.step > 0 ? asked.step : contact / asked.steps_per_contact;

@@ -8,12 +8,10 @@
 namespace packbed::lattice {
 namespace {
 
-constexpr double kLeastSpeed = 0.1;  // [m/s]; a bed that is only placed still has to carry itself
-
 /// As given, or "the hardest impact of one pellet on a wall may overlap by so much".
 DemLaw law_of(const Scene& scene, const DemModel& model, const ContactLaw& law) {
   DemLaw out{law.stiffness, law.damping_ratio, law.friction};
-  const double speed = std::max(kLeastSpeed, landing_speed(scene));
+  const double speed = hardest_impact(scene);
   if (!(law.stiffness > 0))
     for (std::size_t k = 0; k < model.mass.size(); ++k)
       out.stiffness = std::max(

@@ -14,8 +14,6 @@
 namespace packbed::mesh {
 namespace {
 
-constexpr double kLeastSpeed = 0.1;  // [m/s]; a bed that is only placed still has to carry itself
-
 Kernel kernel_for(const Scene& scene, const Shape& shape) {
   const auto refuse = [&](const char* fits) {
     throw InputError(
@@ -87,7 +85,7 @@ void add_wall_fields(Model& model) {
 /// k from "the hardest impact of one pellet on a wall may overlap by so much".
 double find_stiffness(const Scene& scene, const ContactLaw& law, const std::vector<Kind>& kinds) {
   if (law.stiffness > 0) return law.stiffness;
-  const double speed = std::max(landing_speed(scene), kLeastSpeed);
+  const double speed = hardest_impact(scene);
   double stiffness = 0;
   for (const Kind& kind : kinds) {
     const double overlap = law.allowed_overlap * kind.thickness;
@@ -119,7 +117,7 @@ double find_thinnest_wall(const std::vector<Kind>& kinds) {
 
 /// Refuses contacts too soft, and steps too long, for the walls at the expected speed.
 void require_safe_walls(const Scene& scene, const Model& model) {
-  const double speed = std::max(landing_speed(scene), kLeastSpeed), stiffness = model.pellet_law.stiffness;
+  const double speed = hardest_impact(scene), stiffness = model.pellet_law.stiffness;
   for (const Kind& kind : model.kinds) {
     if (!is_wall(kind)) continue;
     // of the largest: a body twice as large presses sqrt(2) times deeper, beside its wall

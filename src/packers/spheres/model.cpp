@@ -74,11 +74,6 @@ double mass_of(double radius, double density) {
   return density * 4.0 / 3.0 * kPi * radius * radius * radius;
 }
 
-/// Speed of the hardest impact [m/s]; a bed that is only placed has to carry itself too.
-double impact_speed(const Scene& scene) {
-  return std::max(landing_speed(scene), 0.1);
-}
-
 /// Factor of R* in Hooke's stiffness, or of sqrt(R* delta) delta in Hertz's force [Pa], by which the hardest
 /// impact on the wall (R* = R) overlaps no size by more than is allowed. As m goes like R^3 and the overlap
 /// like R, one modulus serves all sizes.
@@ -108,7 +103,7 @@ SphereLaw find_law(const Scene& scene, const ContactLaw& law, const std::vector<
   if (law.youngs_modulus > 0)
     out.modulus = 4.0 / 3.0 * law.youngs_modulus / (2.0 * (1.0 - law.poisson_ratio * law.poisson_ratio));
   else if (!(law.stiffness > 0))
-    out.modulus = modulus_for(law, kinds, impact_speed(scene));
+    out.modulus = modulus_for(law, kinds, hardest_impact(scene));
   out.tangential_share = law.tangential_stiffness > 0 ? law.tangential_stiffness
                          : law.youngs_modulus > 0     ? mindlin_share(law)
                                                       : kTangentialShare;
@@ -154,7 +149,7 @@ Model make_model(const Scene& scene) {
   model.gear = scene.stepping.gear;
   const Extremes e = extremes_of(model.kinds);
   if (scene.container.kind == ContainerKind::mesh) model.solid = std::make_shared<SolidWall>(scene.container);
-  const double speed = impact_speed(scene);
+  const double speed = hardest_impact(scene);
   model.smallest_stiffness =
       stiffness_of(model.pellet_law, 0.5 * e.smallest, 0.5 * mass_of(e.smallest, e.density), speed);
   const double contact = shortest_contact(model, e, speed);

@@ -1,7 +1,5 @@
 #include "packers/spheres/solid_wall.hpp"
 
-#include <cmath>
-
 #include "contact/touch.hpp"
 
 namespace packbed::spheres {
@@ -18,21 +16,15 @@ void SolidWall::side(double radius, const Vec3& centre, Vec3& normal, double& di
     distance = first.distance;
     return;
   }
-  // fractions of the deepest, so that powers neither vanish nor overflow
-  const double deepest = radius - first.distance;
-  double sum = 0;
-  Vec3 push = Vec3::Zero();
+  TouchSum<kPointExponent> sum(centre);
   for (const TriangleTree::Nearest& at : places) {
-    const double depth = (radius - at.distance) / deepest, d2 = depth * depth, d4 = d2 * d2;
-    sum += depth_power<kPointExponent>(depth);
-    push += d4 * d2 * depth * (centre - at.point) / at.distance;
+    const Vec3 inward = at.point - centre;
+    sum.add(inward, radius - at.distance, 1.0, inward / at.distance);
   }
-  // delta = sum^(1/p), gradient = (depth / delta)^(p - 1) n
-  const double delta = std::sqrt(std::sqrt(std::sqrt(sum)));
-  const Vec3 gradient = delta / sum * push;
-  const double length = gradient.norm();
-  normal = length > 0 ? Vec3(gradient / length) : Vec3(Vec3::UnitZ());
-  distance = radius - deepest * delta * length;
+  const Touch touch = sum.finish(1.0, Vec3::Zero(), Vec3::Zero());
+  const double length = touch.gradient.norm();
+  if (length > 0) normal = touch.gradient / length;
+  distance = radius - touch.delta * length;
 }
 
 }  // namespace packbed::spheres
