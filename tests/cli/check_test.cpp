@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/program.hpp"
+#include "command.hpp"
 
 namespace packbed {
 namespace {

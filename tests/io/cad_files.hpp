@@ -1,40 +1,16 @@
 #pragma once
-// Mesh files written by the tests themselves, and a folder to put them in.
+// Mesh files written by the tests themselves.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "io/temporary_folder.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/topology.hpp"
 
 namespace packbed::test {
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "packbed-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string path() const { return path_.string(); }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  std::string write(const std::string& name, const std::string& content) const {
-    std::ofstream(file(name), std::ios::binary) << content;
-    return file(name);
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline std::string mesh_file(const std::string& name) {
   return PACKBED_SOURCE_DIR "/meshes/" + name;

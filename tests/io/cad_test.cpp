@@ -174,8 +174,8 @@ TEST(BadCad, MissingFile) {
 }
 TEST(BadCad, Folder) {
   const TemporaryFolder folder;
-  std::filesystem::create_directory(folder.file("a.stl"));
-  EXPECT_SAYS(refused_shape(folder.file("a.stl")), "a folder");
+  std::filesystem::create_directory(folder / "a.stl");
+  EXPECT_SAYS(refused_shape(folder / "a.stl"), "a folder");
 }
 TEST(BadCad, UnknownEnding) {
   EXPECT_SAYS(refused_shape("a.docx"), "the ending .docx");
@@ -238,10 +238,10 @@ TEST(BadCad, AnotherKindOfFile) {
 // gmsh runs as a script what it does not know: such a file must not reach it.
 TEST(BadCad, ScriptIsNotRun) {
   const TemporaryFolder folder;
-  const std::string script = fmt::format("SystemCall \"touch {}\";\n", folder.file("ran"));
+  const std::string script = fmt::format("SystemCall \"touch {}\";\n", folder / "ran");
   EXPECT_NE(refused_shape(folder.write("a.msh", script)), "");
   EXPECT_NE(refused_shape(folder.write("b.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + script)), "");
-  EXPECT_FALSE(std::filesystem::exists(folder.file("ran")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "ran"));
 }
 TEST(BadCad, MshOfAnotherVersion) {
   const TemporaryFolder folder;

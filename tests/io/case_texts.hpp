@@ -79,8 +79,7 @@ class CaseFiles : public testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_ / "sub"); }
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
+    return temporary_.write(name, text);
   }
   std::string message(const std::string& path) const {
     try {

@@ -102,7 +102,7 @@ TEST(LongMeshes, TableHasTheClosedForms) {
 
 TEST(LongMeshes, TableIsWhatItsProgramPrints) {
   const TemporaryFolder folder;
-  const std::string printed = folder.file("table.csv");
+  const std::string printed = folder / "table.csv";
   const std::string command = fmt::format("'{}' '{}' > '{}'", PACKBED_PYTHON, mesh_file("table"), printed);
   ASSERT_EQ(std::system(command.c_str()), 0);
   const auto anew = table(content_of(printed)), kept = table();
@@ -182,7 +182,7 @@ TEST(LongMeshes, SourcesGiveTheSameFilesAnew) {
   ASSERT_EQ(std::system(command.c_str()), 0);
   expect_all(folder.path());
   for (const char* name : {"a38.stl", "lc.stl", "sc.stl", "annulus.stl", "taper.stl"})
-    EXPECT_EQ(content_of(folder.file(name)), content_of(mesh_file(name))) << name;
+    EXPECT_EQ(content_of(folder / name), content_of(mesh_file(name))) << name;
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 // VTK (the library of ParaView) and h5py read what packbed writes, and see the same bed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numeric>
+#include <sstream>
 
 #include "bed/voxelise.hpp"
+#include "command.hpp"
 #include "io/bed.hpp"
 #include "io/grid.hpp"
 #include "io/sample_bed.hpp"
@@ -30,18 +30,12 @@ struct Seen {
 };
 
 Seen seen_by_others(const std::string& folder) {
-  const std::string command =
-      std::string(PACKBED_PYTHON) + " " PACKBED_SOURCE_DIR "/tests/io/readable_by_others " + folder + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  Seen seen;
-  char line[512];
-  while (std::fgets(line, sizeof line, pipe)) {
-    const std::string text(line, std::string_view(line).find_first_of("\n"));
-    seen.output += text + "\n";
+  const Ran ran = run_command(PACKBED_PYTHON " " PACKBED_SOURCE_DIR "/tests/io/readable_by_others " + folder);
+  Seen seen{ran.code, ran.output, {}};
+  std::istringstream lines(ran.output);
+  for (std::string text; std::getline(lines, text);)
     if (const std::size_t gap = text.find(' '); gap != std::string::npos)
       seen.values[text.substr(0, gap)] = text.substr(gap + 1);
-  }
-  seen.exit_code = WEXITSTATUS(pclose(pipe));
   return seen;
 }
 
