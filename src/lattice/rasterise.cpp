@@ -83,86 +83,6 @@ void fill(std::uint64_t* row, int from, int to) {
   row[last] |= tail;
 }
 
-/// A cylinder as the rows of one slice see it, in voxels.
-struct CylinderRows {
-  CylinderRows(const Vec3& axis, double r, double h, double centre, double length)
-      : ax(axis.x()), ay(axis.y()), az(axis.z()), radius(r), half_height(h), middle(centre), limit(length) {
-    across = ay * ay + az * az;
-    along_x = across < 1e-18;
-    flat_x = std::abs(ax) < 1e-12;
-    inv_across = along_x ? 0 : 1 / across;
-    inv_ax = flat_x ? 0 : 1 / ax;
-  }
-  double ax, ay, az;  // axis
-  double radius, half_height;
-  double middle, limit;  // centre along x and length of a row, both from the row's first bit
-  double across, inv_across, inv_ax;
-  bool along_x, flat_x;
-};
-
-/// Bits [from, to) that a row has inside the cylinder: it meets the lateral surface where A x^2 - 2 B x + C
-/// <= 0 and the caps where |a_x x + s| <= h. dy, dz: of the row from the centre.
-struct RowInterval {
-  double from, to;
-};
-inline RowInterval cylinder_row(const CylinderRows& c, double dy, double dz) {
-  const double s = c.ay * dy + c.az * dz, b = c.ax * s, q = dy * dy + dz * dz - s * s - c.radius * c.radius;
-  const double discriminant = c.along_x ? -q : b * b - c.across * q;
-  const double root = std::sqrt(discriminant > 0 ? discriminant : 0.0);
-  const double p = (-c.half_height - s) * c.inv_ax, r = (c.half_height - s) * c.inv_ax;
-  const double lateral_low = c.along_x ? -c.limit : (b - root) * c.inv_across;
-  const double lateral_high = c.along_x ? c.limit : (b + root) * c.inv_across;
-  const double cap_low = c.flat_x ? -c.limit : (r < p ? r : p),
-               cap_high = c.flat_x ? c.limit : (p < r ? r : p);
-  const double low = c.middle + (lateral_low < cap_low ? cap_low : lateral_low);
-  const double high = c.middle + (cap_high < lateral_high ? cap_high : lateral_high);
-  const bool hit = discriminant >= 0 && (!c.flat_x || std::abs(s) <= c.half_height);
-  const double begin = low < 0 ? 0 : c.limit < low ? c.limit : low;
-  const double end = high < 0 ? 0 : c.limit < high ? c.limit : high;
-  return {hit ? std::ceil(begin) : 0, hit ? std::ceil(end) : 0};
-}
-
-/// The same for many rows, from dy0 upwards, where the axis is neither along x nor square to it. Written so
-/// that it vectorises: no branch, and selections one at a time.
-PACKBED_WIDE void cylinder_rows(const CylinderRows& c, double dy0, double dz, int ny, std::int32_t* from,
-                                std::int32_t* to) {
-  const double ay = c.ay, sz = c.az * dz, ax = c.ax, r2 = c.radius * c.radius, h = c.half_height,
-               across = c.across, inv_across = c.inv_across, inv_ax = c.inv_ax, middle = c.middle,
-               limit = c.limit;
-  for (int j = 0; j < ny; ++j) {
-    const double dy = dy0 + j, s = ay * dy + sz, b = ax * s, q = dy * dy + dz * dz - s * s - r2;
-    const double discriminant = b * b - across * q;
-    const double root = std::sqrt(discriminant > 0 ? discriminant : 0.0);
-    const double p = (-h - s) * inv_ax, r = (h - s) * inv_ax;
-    const double lateral_low = (b - root) * inv_across, lateral_high = (b + root) * inv_across;
-    const double cap_low = r < p ? r : p, cap_high = p < r ? r : p;
-    const double low = middle + (lateral_low < cap_low ? cap_low : lateral_low);
-    const double high = middle + (cap_high < lateral_high ? cap_high : lateral_high);
-    const double begin = low < 0 ? 0 : limit < low ? limit : low;
-    const double end = high < 0 ? 0 : limit < high ? limit : high;
-    const bool hit = discriminant >= 0;
-    from[j] = hit ? static_cast<std::int32_t>(std::ceil(begin)) : 0;
-    to[j] = hit ? static_cast<std::int32_t>(std::ceil(end)) : 0;
-  }
-}
-
-/// Sets bits [from, to) of rows of one word each and returns their number.
-PACKBED_WIDE std::int64_t fill_words(const std::int32_t* from, const std::int32_t* to, int n,
-                                     std::uint64_t* row) {
-  constexpr std::uint64_t kOne = 1, kAll = ~std::uint64_t{0};
-  std::int32_t count = 0;
-  for (int j = 0; j < n; ++j) {
-    // bits [0, to) without bits [0, from); a shift by 64 is none, so whole words go by the seventh bit
-    const std::uint64_t f = static_cast<std::uint32_t>(from[j]), t = static_cast<std::uint32_t>(to[j]);
-    const std::uint64_t below_f = ((kOne << (f & 63)) - kOne) | (std::uint64_t{0} - (f >> 6));
-    const std::uint64_t below_t = ((kOne << (t & 63)) - kOne) | (std::uint64_t{0} - (t >> 6));
-    row[j] = below_t & (below_f ^ kAll);
-    const std::int32_t length = to[j] - from[j];
-    count += length > 0 ? length : 0;
-  }
-  return count;
-}
-
 int floor_div(int a, int b) {
   return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
@@ -205,24 +125,17 @@ void Rasteriser::sphere(const Vec3& centre, double radius) {
     }
 }
 
-void Rasteriser::cylinder(const Pose& pose, double radius, double half_height) {
-  const Vec3 c = pose.position;
-  const CylinderRows rows(pose.rotation * Vec3::UnitZ(), radius, half_height, c.x() - 64.0 * block_.word,
-                          64.0 * block_.words);
+void Rasteriser::cylinder(const Vec3& centre, const Vec3& axis, double radius, double half_height) {
+  intervals_.box = {block_.y, block_.ny, block_.z, block_.nz};
+  const Vec3 from_block = centre - Vec3(64.0 * block_.word, 0, 0);
+  cylinder_intervals(from_block, axis, radius, half_height, 64 * block_.words, intervals_);
   block_.count = 0;
-  intervals_.resize(2 * static_cast<std::size_t>(block_.ny));
   for (int k = 0; k < block_.nz; ++k) {
-    const double dy0 = block_.y - c.y(), dz = block_.z + k - c.z();
-    if (block_.words == 1 && !rows.along_x && !rows.flat_x) {
-      std::int32_t *from = intervals_.data(), *to = from + block_.ny;
-      cylinder_rows(rows, dy0, dz, block_.ny, from, to);
-      block_.count += fill_words(from, to, block_.ny, block_.row(0, k));
-      continue;
-    }
+    const std::int32_t *from = intervals_.from.data() + intervals_.at(k),
+                       *to = intervals_.to.data() + intervals_.at(k);
     for (int j = 0; j < block_.ny; ++j) {
-      const RowInterval r = cylinder_row(rows, dy0 + j, dz);
-      fill(block_.row(j, k), static_cast<int>(r.from), static_cast<int>(r.to));
-      block_.count += std::max(0, static_cast<int>(r.to) - static_cast<int>(r.from));
+      fill(block_.row(j, k), from[j], to[j]);
+      block_.count += std::max(0, to[j] - from[j]);
     }
   }
 }
@@ -334,9 +247,8 @@ const BitBlock& Rasteriser::body(const Shape& shape, const Pose& pose, double sc
     return block_;
   }
   const Vec3 a = pose.rotation * Vec3::UnitZ();
-  const Vec3 reach = radius * (Vec3::Ones() - a.cwiseAbs2()).cwiseMax(0).cwiseSqrt() + half * a.cwiseAbs();
-  if (set_box(centre - reach, centre + reach, z_begin, z_end))
-    cylinder({centre, pose.rotation}, radius, half);
+  const Vec3 reach = reach_of_cylinder(a, radius, half);
+  if (set_box(centre - reach, centre + reach, z_begin, z_end)) cylinder(centre, a, radius, half);
   return block_;
 }
 

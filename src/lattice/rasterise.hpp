@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lattice/cylinder_rows.hpp"
 #include "lattice/voxel_grid.hpp"
 #include "shape/shape.hpp"
 
@@ -57,16 +58,16 @@ class Rasteriser {
   };
   bool set_box(const Vec3& low, const Vec3& high, int z_begin, int z_end);
   void sphere(const Vec3& centre, double radius);
-  void cylinder(const Pose& pose, double radius, double half_height);
+  void cylinder(const Vec3& centre, const Vec3& axis, double radius, double half_height);
   template <class Int>
   void triangle(const Corner& a, const Corner& b, const Corner& c);
   void close_rows();
 
   GridFrame frame_;
   BitBlock block_;
-  std::vector<std::int32_t> intervals_;  // of the rows of one slice
-  std::vector<Vec3> posed_;              // vertices in voxels, voxel centres at whole numbers
-  std::vector<Corner> corners_;          // the same, snapped, counted from corner_base_
+  RowIntervals intervals_;
+  std::vector<Vec3> posed_;      // vertices in voxels, voxel centres at whole numbers
+  std::vector<Corner> corners_;  // the same, snapped, counted from corner_base_
   std::array<std::int64_t, 3> corner_base_{0, 0, 0};
   std::int64_t rows_ = 0, open_rows_ = 0;
 };

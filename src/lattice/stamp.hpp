@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lattice/rasterise.hpp"
+#include "lattice/window.hpp"
 #include "shape/shape.hpp"
 
 namespace packbed {
@@ -22,6 +23,7 @@ struct Stamp {
   int rows = 0;            // along y, a multiple of eight
   std::int64_t count = 0;  // solid cells
   std::vector<std::uint64_t> bits;
+  std::vector<RowRange> ranges;  // one a slice: rows outside have no cells
 
   static constexpr std::size_t kPad = 8;  // empty words before and after, so that neighbours may be read
   std::size_t column() const { return static_cast<std::size_t>(rows); }
@@ -46,12 +48,36 @@ class StampMaker {
   /// The same with a phase that is chosen so that the number of cells is near the pellet's volume: within
   /// 0.25 % where one of forty gives that, else as near as they come.
   Stamp make_true(const Shape& shape, double scale, const Quat& rotation, Vec3& phase);
+  /// The phase that make_true tries first.
+  static Vec3 first_phase();
 
  private:
+  Stamp make_cylinder(const Shape& shape, double scale, const Quat& rotation, const Vec3& phase);
+
   GridFrame frame_;
+  RowIntervals rows_;
   int middle_;  // the pellet's cell in frame_, along each axis
   Rasteriser rasteriser_;
 };
+
+/// Corners of a box of cells, the upper one outside.
+struct CellBox {
+  Cell low, high;
+};
+/// Of a pellet that lies in the cell `at`, its empty border included.
+inline CellBox box_of(const Stamp& stamp, const Cell& at) {
+  CellBox box{at, at};
+  for (std::size_t d = 0; d < 3; ++d) {
+    box.low[d] += stamp.low[d];
+    box.high[d] = box.low[d] + stamp.size[d];
+  }
+  return box;
+}
+
+/// Where a stamp lies on a lattice (slices, words, rows) whose first word is `lattice`, when the corner of
+/// its box is its cell (x, y, z), none of them negative.
+Window window_of(const Stamp& stamp, std::uint64_t* lattice, std::size_t column, std::size_t slice, int x,
+                 int y, int z);
 
 /// Whether a cell, counted from the pellet's own, is solid.
 inline bool has_cell(const Stamp& stamp, const Cell& cell) {
@@ -62,6 +88,19 @@ inline bool has_cell(const Stamp& stamp, const Cell& cell) {
     at[d] = static_cast<std::size_t>(c);
   }
   return (stamp.data()[at[2] * stamp.slice() + at[0] / 64 * stamp.column() + at[1]] >> (at[0] % 64)) & 1U;
+}
+
+/// Bits of the 64 cells from (x, y, z) along x, counted from the pellet's own; none outside of the stamp.
+inline std::uint64_t cells_from(const Stamp& stamp, int x, int y, int z) {
+  x -= stamp.low[0], y -= stamp.low[1], z -= stamp.low[2];
+  if (y < 0 || y >= stamp.size[1] || z < 0 || z >= stamp.size[2]) return 0;
+  const std::uint64_t* row =
+      stamp.data() + static_cast<std::size_t>(z) * stamp.slice() + static_cast<std::size_t>(y);
+  const auto word = [&](int w) {
+    return w < 0 || w >= stamp.words ? 0 : row[static_cast<std::size_t>(w) * stamp.column()];
+  };
+  const int w = x >= 0 ? x / 64 : -((63 - x) / 64), shift = x - 64 * w;
+  return (word(w) >> shift) | ((word(w + 1) << 1) << (63 - shift));
 }
 
 /// Calls visit(x, y, z) for every solid cell, counted from the pellet's cell, in the order of the bits.

@@ -3,8 +3,16 @@
 // rows at a time. Bits only, so that wide and narrow machines agree.
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace packbed {
+
+/// Rows of a slice, by eights, all of them rows of the box.
+struct RowRange {
+  std::uint16_t first = 0, eights = 0;
+  int end() const { return first + 8 * eights; }
+};
 
 /// Where the words of a stamp meet the words of the lattice.
 struct Window {
@@ -13,36 +21,57 @@ struct Window {
   int shift;                                  // bits of x that the stamp is moved by within a word
   const std::uint64_t* stamp = nullptr;       // first row, word and slice of the stamp
   std::size_t stamp_column, stamp_slice;
-  int slices, words, rows;
+  int slices, words;
+  bool narrow;             // the bits lie in one word of the lattice
+  const RowRange* ranges;  // rows of each slice that have cells, and one more on either side
 };
 
 /// Whether any bit of the stamp is set in the lattice.
 bool window_hits(const Window& w);
-/// The same for the bits that stamp moved by `step` words has and the stamp has not (y: one row; z: one
-/// slice).
-bool window_hits_ahead(const Window& w, std::ptrdiff_t step);
-/// The same for a move by one bit along x, up or down.
-bool window_hits_ahead_x(const Window& w, bool up);
-/// One column of rows of what a move by one cell along `axis` would enter and finds taken, into found[rows].
-/// False when there is none.
-bool window_column_ahead(const Window& w, int x, int z, int axis, int sign, std::uint64_t* found);
+/// The same for the bits that a move by one cell along `axis` would newly enter.
+bool window_hits_ahead(const Window& w, int axis, int sign);
 /// Number of bits of the stamp that are set in the lattice.
 std::int64_t window_count(const Window& w);
 /// Exclusive-or of the stamp into the lattice: writes a pellet that is not there, erases one that is.
 void window_flip(const Window& w);
-/// The flip of the stamp and of the stamp moved as in window_hits_ahead (y, z), in one go.
-void window_move(const Window& w, std::ptrdiff_t step);
+/// The flip of the stamp and of the stamp moved by one cell along y (axis 1) or z (2), in one go.
+void window_move(const Window& w, int axis, int sign);
 /// Or of the stamp into the lattice.
 void window_write(const Window& w);
 
-/// Bits of one word of the stamp that are set in the lattice.
-inline std::uint64_t window_word(const Window& w, int x, int y, int z) {
-  const std::uint64_t* low = w.lattice + static_cast<std::size_t>(z) * w.lattice_slice +
-                             static_cast<std::size_t>(x) * w.lattice_column + y;
-  const std::uint64_t stamp =
-      w.stamp[static_cast<std::size_t>(z) * w.stamp_slice + static_cast<std::size_t>(x) * w.stamp_column +
-              static_cast<std::size_t>(y)];
-  return ((*low >> w.shift) | ((low[w.lattice_column] << 1) << (63 - w.shift))) & stamp;
-}
+/// Cells of one word of a window.
+struct HitRow {
+  std::uint64_t bits = 0;
+  std::int32_t word = 0, row = 0, slice = 0;  // of the window
+};
+/// The rows of a window that share cells with the lattice, into `out`, which has room for all rows of the
+/// ranges in all words; returns their number.
+std::size_t window_list(const Window& w, HitRow* out);
+/// Words of one column of a lattice, slice by slice.
+struct Columns {
+  std::uint64_t* first = nullptr;  // row, slice 0
+  std::size_t column, slice;       // words from one x-word, one slice, to the next
+};
+/// Copies `rows` rows, a multiple of eight, of so many slices, without the first `shift` bits of x, which
+/// come from the next word instead.
+void window_copy(const Columns& from, int shift, int slices, int rows, const Columns& to);
+
+/// Taken cells that a pellet meets, by words of its stamp; keeps its memory between calls.
+class Hits {
+ public:
+  std::span<const HitRow> rows() const { return {rows_.data(), count_}; }
+  void clear() { count_ = 0; }
+  /// Those of a window; true when there are any.
+  bool list(const Window& w) {
+    const std::size_t most = w.stamp_column * static_cast<std::size_t>(w.slices * w.words);
+    if (rows_.size() < most) rows_.resize(most);
+    count_ = window_list(w, rows_.data());
+    return count_ > 0;
+  }
+
+ private:
+  std::vector<HitRow> rows_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace packbed

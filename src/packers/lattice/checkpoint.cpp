@@ -5,7 +5,7 @@
 namespace packbed::lattice {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'4c000001;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'4c000002;  // changes with any change of State
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>
@@ -19,7 +19,7 @@ void visit(Archive& io, S& s) {
 /// Worn pellets cannot be drawn anew.
 template <class Archive, class S>
 void visit_stamp(Archive& io, S& s) {
-  io(s.low), io(s.size), io(s.words), io(s.rows), io(s.count), io(s.bits);
+  io(s.low), io(s.size), io(s.words), io(s.rows), io(s.count), io(s.bits), io(s.ranges);
 }
 
 }  // namespace

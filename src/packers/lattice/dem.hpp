@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dynamics/bodies.hpp"
+#include "dynamics/doze.hpp"
 #include "dynamics/neighbours.hpp"
 #include "lattice/shared_cells.hpp"
 #include "packers/feed.hpp"
@@ -30,6 +31,7 @@ struct DemModel {
   std::vector<double> mass;  // of one pellet of each kind at scale 1 [kg]
   double step = 0;           // [s]
   double skin = 0;           // of the neighbour list [m]
+  std::int64_t watch = 1;    // steps over which a pellet must stay to fall asleep
   Vec3 gravity = Vec3::Zero();
 };
 
@@ -39,21 +41,23 @@ inline constexpr std::uint32_t kFloor = 0xfffffffe, kSide = 0xffffffff;  // stan
 /// listed.
 struct Touch {
   std::uint32_t a = 0, b = 0;
+  std::uint32_t seen_a = 0, seen_b = 0;  // versions of the stamps that were counted; 0: none
+  std::uint32_t meets = 0;               // they share cells
+  std::uint32_t known = 0;               // there is a depth of the last step
+  double depth = 0;                      // [m]; <= 0: apart
+  // what the shared cells tell, with a moved towards b by `lead` cells, so that a touch is seen before it
+  // begins; counted anew when either stamp has changed
+  Patch patch;
+  Cell lead{0, 0, 0};
+  // added to the depth that the cells tell, so that it does not jump when they are counted anew; fades away
+  double bias = 0;             // [m]
+  double last = 0;             // depth of the last step, negative when apart [m]
   Vec3 spring = Vec3::Zero();  // tangential [m]
   Vec3 normal = Vec3::Zero();  // on a, of the last touch; zero: none yet
   Vec3 force = Vec3::Zero();   // on a [N]
   Vec3 couple = Vec3::Zero();  // on a, beside the force at the point [N m]
   Vec3 point = Vec3::Zero();   // world [m]
-  double depth = 0;            // [m]; <= 0: apart
-  // the shared cells with a moved towards b by `lead` cells, so that a touch is seen before it begins;
-  // counted anew when either stamp has changed
-  SharedCells cells;
-  Cell lead{0, 0, 0};
-  // added to the depth that the cells tell, so that it does not jump when they are counted anew; fades away
-  double bias = 0;                       // [m]
-  double last = 0;                       // depth of the last step, negative when apart [m]
-  std::uint32_t known = 0;               // there was one
-  std::uint32_t seen_a = 0, seen_b = 0;  // versions of the stamps that were counted; 0: none
+  double held = 0;             // size of the force when one of the two fell asleep [N]
 };
 
 struct DemState {
@@ -69,6 +73,13 @@ struct DemState {
   std::vector<Vec3> phase;             // of the stamp [cells]
   std::vector<std::uint32_t> version;  // of the stamp and its cell, from 1
   std::vector<Touch> touches;
+  std::vector<Doze> doze;
+  // made anew when the list of touches or who is awake has changed: touches of something that moves, pellets
+  // that are awake, sleepers that have such a touch; what touches between sleepers do to each pellet
+  std::vector<std::uint32_t> active, awake, shore;
+  std::vector<Vec3> resting_force, resting_torque;
+  std::uint8_t stale = 1;
+  std::uint8_t last_watch = 0;  // the bed seems to be at rest: all are awake and watched once more
   std::vector<Vec3> listed_at;  // position at the last search [m]
   std::uint8_t search_due = 1, at_rest = 0, waited = 0;
   double time = 0;
@@ -87,9 +98,18 @@ DemModel make_dem_model(const Scene& scene);
 void dem_feed(const DemModel& model, DemState& state, Feeder& feeder);
 void dem_find_pairs(const DemModel& model, DemState& state);
 void dem_touch(const DemModel& model, DemState& state);
+/// Lets settled pellets fall asleep, and wakes those that something would move (dynamics/doze.hpp).
+void dem_sleep(const DemModel& model, DemState& state);
 void dem_move(const DemModel& model, DemState& state);
 void dem_rest(const DemModel& model, DemState& state, const Feeder& feeder);
 void dem_shake(const DemModel& model, DemState& state);
+
+/// Adds what a touch does to both.
+void add_forces(const Touch& touch, const std::vector<Vec3>& position, std::vector<Vec3>& force,
+                std::vector<Vec3>& torque);
+void wake_all(DemState& state);
+/// Sorts out who is awake, when that has changed.
+void find_active(DemState& state);
 
 /// Makes the stamp of pellet i at its present rotation and cell.
 void redraw(const DemModel& model, DemState& state, std::size_t i, StampMaker& maker);

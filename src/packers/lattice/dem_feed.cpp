@@ -30,6 +30,7 @@ void enter(const DemModel& model, DemState& state, const Pellet& p, StampMaker& 
   state.phase.push_back(Vec3::Zero());
   state.version.push_back(0);
   state.listed_at.push_back(p.pose.position);
+  begin_watch(state.doze.emplace_back(), state.bodies, state.size() - 1);
   redraw(model, state, state.size() - 1, maker);
 }
 

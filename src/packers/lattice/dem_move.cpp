@@ -34,10 +34,11 @@ void dem_move(const DemModel& model, DemState& state) {
   const Scene& scene = *model.base.scene;
   const Vec3 gravity = model.gravity + shaking_acceleration(scene.shaking, -model.gravity.normalized(),
                                                             state.shake, state.time);
-  parallel_for(state.size(), 64, [&](std::size_t begin, std::size_t end) {
+  parallel_for(state.awake.size(), 64, [&](std::size_t begin, std::size_t end) {
     StampMaker maker(model.base.frame.pitch, model.base.largest);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (b.motion[i] == Motion::fixed) continue;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = state.awake[k];
+      if (b.motion[i] != Motion::awake) continue;  // has just fallen asleep
       kick(b, i, gravity, model.step);  // two halves in one: velocities are those between two steps
       drift(b, i, model.step);
       follow(model, state, i, maker);
@@ -67,6 +68,11 @@ void dem_rest(const DemModel& model, DemState& state, const Feeder& feeder) {
     state.rest_drift = drift / (2 * model.base.largest);
     state.rest_speed = kinetic_speed(state);
     state.at_rest = state.rest_drift <= s.rest_drift && state.rest_speed <= s.rest_speed;
+    if (state.at_rest && s.sleep && !state.last_watch) {  // once more, with all of them awake
+      wake_all(state);
+      state.at_rest = 0;
+      state.last_watch = 1;
+    }
   }
   state.rest_anchor = x;
   state.rest_since = state.time;
@@ -75,7 +81,9 @@ void dem_rest(const DemModel& model, DemState& state, const Feeder& feeder) {
 void dem_shake(const DemModel& model, DemState& state) {
   if (!state.at_rest) return;
   const auto push = next_shake(*model.base.scene, state.shake, state.time, pellets_of(state));
+  state.last_watch = 0;
   if (!push) return;
+  wake_all(state);
   for (std::size_t i = 0; i < state.size(); ++i)
     if (state.bodies.motion[i] != Motion::fixed) state.bodies.velocity[i] += *push;
   state.at_rest = 0;

@@ -34,7 +34,8 @@ void dem_find_pairs(const DemModel& model, DemState& state) {
   const Bodies& b = state.bodies;
   const double go = 0.5 * model.skin;
   for (std::size_t i = 0; i < state.size() && !state.search_due; ++i)
-    state.search_due = (b.position[i] - state.listed_at[i]).squaredNorm() > go * go;
+    state.search_due =
+        b.motion[i] == Motion::awake && (b.position[i] - state.listed_at[i]).squaredNorm() > go * go;
   if (!state.search_due) return;
   // two cells more: a stamp lies up to a cell from its pellet, and touches are seen a cell before they begin
   const double margin = go + 2 * model.base.frame.pitch;
@@ -67,6 +68,7 @@ void dem_find_pairs(const DemModel& model, DemState& state) {
   state.touches = std::move(list);
   state.listed_at = b.position;
   state.search_due = 0;
+  state.stale = 1;
   ++state.searches;
 }
 

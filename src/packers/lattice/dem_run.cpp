@@ -14,7 +14,7 @@
 namespace packbed::lattice {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'44000002;  // changes with any change of DemState
+constexpr std::uint64_t kFormat = 0x706b6264'44000003;  // changes with any change of DemState
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>
@@ -25,8 +25,8 @@ void visit(Archive& io, S& s) {
   io(b.position), io(b.rotation), io(b.axis), io(b.velocity), io(b.angular_momentum), io(b.spin),
       io(b.travel);
   io(b.force), io(b.torque), io(b.motion);
-  io(s.drawn), io(s.cell), io(s.offset), io(s.turn), io(s.phase), io(s.version), io(s.touches),
-      io(s.listed_at), io(s.search_due), io(s.at_rest), io(s.waited);
+  io(s.drawn), io(s.cell), io(s.offset), io(s.turn), io(s.phase), io(s.version), io(s.touches), io(s.doze),
+      io(s.last_watch), io(s.listed_at), io(s.search_due), io(s.at_rest), io(s.waited);
   io(s.time), io(s.steps), io(s.snapshots), io(s.searches);
   visit_shake(io, s.shake);
   io(s.rest_since), io(s.rest_speed), io(s.rest_drift), io(s.rest_anchor), io(s.peak), io(s.wall_s),
@@ -35,14 +35,17 @@ void visit(Archive& io, S& s) {
 
 void restore(std::span<const std::byte> bytes, const DemModel& model, DemState& state, Feeder& feeder) {
   restore_checkpoint(bytes, "digidem packing", kFormat, feeder, [&](ArchiveReader& io) { visit(io, state); });
+  state.bodies.velocity_ahead.resize(state.size());
+  state.bodies.spin_ahead.resize(state.size());
   StampMaker maker(model.base.frame.pitch, model.base.largest);
   for (std::size_t i = 0; i < state.size(); ++i)
     state.stamp.push_back(maker.make(*model.base.kind(state.bodies.kind[i]).shape, state.bodies.scale[i],
                                      state.drawn[i], state.phase[i]));
 }
 
-enum Phase : std::size_t { kFeed, kFindPairs, kTouch, kMove, kRest, kShake, kPhases };
-constexpr std::array<const char*, kPhases> kPhaseName{"feed", "find_pairs", "touch", "move", "rest", "shake"};
+enum Phase : std::size_t { kFeed, kFindPairs, kTouch, kSleep, kMove, kRest, kShake, kPhases };
+constexpr std::array<const char*, kPhases> kPhaseName{"feed", "find_pairs", "touch", "sleep",
+                                                      "move", "rest",       "shake"};
 
 struct Run {
   const DemModel& model;
@@ -55,6 +58,7 @@ struct Run {
     dem_feed(model, state, feeder), add_phase(phases[kFeed], last);
     dem_find_pairs(model, state), add_phase(phases[kFindPairs], last);
     dem_touch(model, state), add_phase(phases[kTouch], last);
+    dem_sleep(model, state), add_phase(phases[kSleep], last);
     dem_move(model, state), add_phase(phases[kMove], last);
     dem_rest(model, state, feeder), add_phase(phases[kRest], last);
     dem_shake(model, state), add_phase(phases[kShake], last);

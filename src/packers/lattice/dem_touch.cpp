@@ -27,6 +27,11 @@ Vec3 first_guess(const DemState& state, const Touch& t) {
   return way.norm() > 0 ? Vec3(way.normalized()) : Vec3::UnitZ();
 }
 
+void look_at(const DemState& state, Touch& t, const SharedCells& cells) {
+  t.meets = cells.count > 0;
+  if (t.meets) t.patch = patch_of(cells, first_guess(state, t));
+}
+
 /// Counts the shared cells when a stamp has changed; true then.
 bool count_cells(const DemModel& model, const DemState& state, Touch& t) {
   const std::uint32_t version_b = is_wall(t) ? 1 : state.version[t.b];
@@ -44,13 +49,13 @@ bool count_cells(const DemModel& model, const DemState& state, Touch& t) {
   const Stamp& a = state.stamp[t.a];
   if (!is_wall(t)) {
     const Cell& b = state.cell[t.b];
-    t.cells = shared_cells(a, state.stamp[t.b], {b[0] - at[0], b[1] - at[1], b[2] - at[2]});
+    look_at(state, t, shared_cells(a, state.stamp[t.b], {b[0] - at[0], b[1] - at[1], b[2] - at[2]}));
     return true;
   }
   // the tube's floor and its side are two touches; a mesh container is one
   const bool tube = model.base.scene->container.kind == ContainerKind::tube;
   const int high = t.b == kFloor ? 0 : model.base.frame.size[2], low = t.b == kSide && tube ? 0 : -2;
-  t.cells = shared_cells(a, state.walls, at, low, high);
+  look_at(state, t, shared_cells(a, state.walls, at, low, high));
   return true;
 }
 
@@ -68,12 +73,12 @@ struct Place {
 /// Depth, normal and point; false when apart.
 bool find_place(const DemModel& model, const DemState& state, bool counted, Touch& t, Place& place) {
   t.depth = 0;
-  if (t.cells.count == 0) {
+  if (!t.meets) {
     t.known = 0;
     return false;
   }
   const double pitch = model.base.frame.pitch;
-  const Patch patch = patch_of(t.cells, first_guess(state, t));
+  const Patch& patch = t.patch;
   t.normal = patch.normal;
   const Vec3 lead(t.lead[0], t.lead[1], t.lead[2]);
   const Bodies& b = state.bodies;
@@ -145,26 +150,26 @@ void push(const DemState& state, const DemLaw& law, double step, const Place& pl
 }  // namespace
 
 void dem_touch(const DemModel& model, DemState& state) {
-  parallel_for(state.touches.size(), 64, [&](std::size_t begin, std::size_t end) {
+  find_active(state);
+  parallel_for(state.active.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      Touch& t = state.touches[k];
-      t.force = t.couple = Vec3::Zero();
+      Touch& t = state.touches[state.active[k]];
       const bool counted = count_cells(model, state, t);
+      if (!t.meets && !t.known && !(t.depth > 0)) continue;
+      t.force = t.couple = Vec3::Zero();
       Place place;
       if (find_place(model, state, counted, t, place))
         push(state, is_wall(t) ? model.wall : model.pellet, model.step, place, t);
     }
   });
   Bodies& b = state.bodies;
-  for (std::size_t i = 0; i < state.size(); ++i) b.force[i] = b.torque[i] = Vec3::Zero();
-  for (const Touch& t : state.touches) {  // in the order of the list
+  b.force = state.resting_force;
+  b.torque = state.resting_torque;
+  for (const std::uint32_t k : state.active) {  // in the order of the list
+    const Touch& t = state.touches[k];
     if (!(t.depth > 0)) continue;
     state.peak = std::max(state.peak, t.depth);
-    b.force[t.a] += t.force;
-    b.torque[t.a] += (t.point - b.position[t.a]).cross(t.force) + t.couple;
-    if (is_wall(t)) continue;
-    b.force[t.b] -= t.force;
-    b.torque[t.b] -= (t.point - b.position[t.b]).cross(t.force) + t.couple;
+    add_forces(t, b.position, b.force, b.torque);
   }
 }
 

@@ -1,10 +1,5 @@
-// digicgp: a pellet is guided by the collisions of the last step, its own and those of others with it.
-//
-//        o          each cell that a pellet would enter and finds taken is a pair of colliding voxels. Both
-//        of
-//      /   \        their pellets feel a force of 1: along the line from the cell to their own centre of mass
-//     o     |       for the net force, square to the face that it comes through for the torque
-//   ##x     x##
+// digicgp: a pellet is guided by the collisions of the last step, its own and those of others with it
+// (collisions.hpp).
 #include <algorithm>
 #include <cmath>
 
@@ -16,122 +11,112 @@ namespace {
 /// Cells that a pellet may move along an axis before its neighbours are looked for again.
 constexpr int kRoam = 3;
 
-/// Corners of the box of a pellet's cells on the lattice, its empty border included.
-struct Box {
-  Cell low, high;
-};
-Box box_of(const Stamp& stamp, const Cell& at) {
-  Box box{at, at};
-  for (std::size_t d = 0; d < 3; ++d) {
-    box.low[d] += stamp.low[d];
-    box.high[d] = box.low[d] + stamp.size[d];
-  }
-  return box;
-}
-
-bool meet(const Box& a, const Box& b) {
-  for (std::size_t d = 0; d < 3; ++d)
-    if (a.low[d] >= b.high[d] || b.low[d] >= a.high[d]) return false;
-  return true;
-}
-
-/// The collisions of one pellet in one try.
-class Collision {
+/// The turn of one pellet: tries on its surroundings; on the lattice it moves once, at the end.
+class Turn {
  public:
-  /// `tried`: the box that is tried.
-  Collision(const State& state, std::size_t i, const Box& tried, std::vector<Push>& pushes)
-      : state_(state), i_(i), pushes_(pushes) {
-    own_.pellet = static_cast<std::uint32_t>(i);
-    for (std::uint32_t k = state.near_from[i]; k < state.near_from[i + 1]; ++k) {
-      const std::uint32_t j = state.near[k];
-      if (std::abs(state.slab[j] - state.slab[i]) > 1) continue;  // out of reach, and perhaps on the move
-      if (meet(tried, box_of(state.stamp[j], state.cell[j]))) others_.push_back({j});
-    }
+  Turn(const Model& model, State& state, std::size_t i, Workspace& work, Turns& turns)
+      : model_(model), state_(state), i_(i), work_(work), turns_(turns), home_(state.cell[i]) {
+    work.surroundings.look(state.lattice, state.stamp[i], home_, reach());
   }
-  ~Collision() {
-    pushes_.push_back(own_);
-    for (const Push& p : others_)
-      if (p.force != Vec3::Zero()) pushes_.push_back(p);
+  ~Turn() {
+    if (!lifted_) return;
+    state_.lattice.flip(state_.stamp[i_], state_.cell[i_]);
+    state_.box[i_] = box_of(state_.stamp[i_], state_.cell[i_]);
   }
-  Collision(const Collision&) = delete;
-  Collision& operator=(const Collision&) = delete;
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
 
-  /// A taken cell (x, y, z), counted from the pellet's own, whose centre of mass is at `phase`; `face`:
-  /// square to the face that it comes through, towards the pellet; zero: not known.
-  void add(const Cell& at, const Vec3& phase, const Vec3& face) {
-    push(own_, Vec3(at[0], at[1], at[2]) - phase, face);
-    if (last_ < others_.size() && push_other(others_[last_], at, face)) return;
-    for (last_ = 0; last_ < others_.size(); ++last_)
-      if (push_other(others_[last_], at, face)) return;  // else it is the wall's
+  /// Moves by one cell, or tells what is in the way.
+  void move(int axis, int sign) {
+    ++turns_.tally.moves;
+    Cell by{0, 0, 0};
+    by[static_cast<std::size_t>(axis)] = sign;
+    const Stamp& stamp = state_.stamp[i_];
+    if (work_.surroundings.list_hits(stamp, moved(by), work_.hits)) {
+      collide({stamp, state_.phase[i_], by, work_.hits.rows(), Vec3::Unit(axis) * -sign});
+      return;
+    }
+    lift();
+    state_.cell[i_][static_cast<std::size_t>(axis)] += sign;
+    ++turns_.tally.moved;
+  }
+
+  /// Rotates about the torque when there is room.
+  void rotate(const Vec3& torque, double u) {
+    const double most = std::min(model_.rules.max_angle, model_.rules.max_sweep / radius());
+    const Quat turn = turn_about(torque, u * most);
+    const Cell here = moved({0, 0, 0});
+    ++turns_.tally.rotations;
+    const auto taken = [&](const Cell& c) {
+      return work_.surroundings.taken({here[0] + c[0], here[1] + c[1], here[2] + c[2]});
+    };
+    if (!model_.rules.turn_cells &&
+        model_.probes[state_.kind[i_]].meet(state_.scale[i_], turned_rotation(state_, i_, turn),
+                                            StampMaker::first_phase(), taken))
+      return;
+    Turned turned = turned_by(model_, state_, i_, turn, work_.maker);
+    if (work_.surroundings.hits(turned.stamp, here)) return;
+    lift();
+    take(state_, i_, std::move(turned), turns_.tally);
   }
 
  private:
-  static void push(Push& p, const Vec3& arm, const Vec3& face) {
-    p.force -= arm / std::max(arm.norm(), 1e-3);
-    p.torque += arm.cross(face);
+  double radius() const {  // [cells]
+    return model_.kind(state_.kind[i_]).shape->bounding_radius * state_.scale[i_] / model_.frame.pitch;
   }
-  /// When the cell is this pellet's.
-  bool push_other(Push& p, Cell at, const Vec3& face) const {
-    const Cell &from = state_.cell[i_], &to = state_.cell[p.pellet];
-    for (std::size_t d = 0; d < 3; ++d) at[d] += from[d] - to[d];
-    if (!has_cell(state_.stamp[p.pellet], at)) return false;
-    push(p, Vec3(at[0], at[1], at[2]) - state_.phase[p.pellet], -face);
-    return true;
+  /// Cells of the copy: the pellet at any rotation, its phase, its empty border, a move along each axis; a
+  /// pellet whose cells are turned may have grown.
+  int reach() const {
+    int cells = static_cast<int>(std::ceil(radius())) + 3;
+    const Stamp& s = state_.stamp[i_];
+    for (std::size_t d = 0; d < 3; ++d) cells = std::max({cells, 1 - s.low[d], s.low[d] + s.size[d] + 1});
+    return cells;
   }
+  Cell moved(const Cell& by) const {
+    Cell out;
+    for (std::size_t d = 0; d < 3; ++d) out[d] = state_.cell[i_][d] - home_[d] + by[d];
+    return out;
+  }
+  void lift() {
+    if (!lifted_) state_.lattice.flip(state_.stamp[i_], home_);
+    lifted_ = true;
+  }
+  void collide(const Tried& tried) { work_.collisions.push(state_, i_, tried, turns_.pushes); }
 
-  const State& state_;
-  std::size_t i_, last_ = 0;
-  Push own_;
-  std::vector<Push> others_;
-  std::vector<Push>& pushes_;
+  const Model& model_;
+  State& state_;
+  std::size_t i_;
+  Workspace& work_;
+  Turns& turns_;
+  Cell home_;
+  bool lifted_ = false;
 };
-
-/// Moves by one cell, or tells what is in the way.
-void move_or_collide(State& state, std::size_t i, int axis, int sign, Turns& turns) {
-  if (try_move(state, i, axis, sign, turns.tally)) return;
-  const Vec3 face = Vec3::Unit(axis) * -sign;
-  Collision collision(state, i, box_of(state.stamp[i], state.cell[i]), turns.pushes);  // border included
-  state.lattice.for_each_hit_on_move(state.stamp[i], state.cell[i], axis, sign, [&](int x, int y, int z) {
-    collision.add({x, y, z}, state.phase[i], face);
-  });
-}
-
-/// Rotates about the torque, or tells what is in the way.
-void rotate_or_collide(const Model& model, State& state, std::size_t i, const Guide& guide, double u,
-                       StampMaker& maker, Turns& turns) {
-  const double reach = model.kind(state.kind[i]).shape->bounding_radius * state.scale[i] / model.frame.pitch;
-  const double most = std::min(model.rules.max_angle, model.rules.max_sweep / reach);
-  try_rotation(model, state, i, guide.torque, u * most, maker, turns.tally,
-               [&](const Stamp& tried, const Vec3& phase) {
-                 Collision collision(state, i, box_of(tried, state.cell[i]), turns.pushes);
-                 state.lattice.for_each_hit(tried, state.cell[i], [&](int x, int y, int z) {
-                   collision.add({x, y, z}, phase, Vec3::Zero());
-                 });
-               });
-}
 
 }  // namespace
 
-void move_digicgp(const Model& model, State& state, std::size_t i, StampMaker& maker, Turns& turns) {
+void move_digicgp(const Model& model, State& state, std::size_t i, Workspace& work, Turns& turns) {
   const Guide guide = state.guide[i];
   Random random = numbers_of(model, state, i);
+  Turn turn(model, state, i, work, turns);
   if (guide.free) {  // as in digipac
     const std::uint32_t way = random.bits();
-    move_or_collide(state, i, static_cast<int>(way & 1U), way & 2U ? 1 : -1, turns);
-    move_or_collide(state, i, 2, -1, turns);
+    turn.move(static_cast<int>(way & 1U), way & 2U ? 1 : -1);
+    turn.move(2, -1);
     return;
   }
   const bool up = random.uniform() < model.rules.rebound * guide.chance.z();
   for (int axis = 0; axis < 2; ++axis) {
     const double p = guide.chance[axis];
-    if (random.uniform() < std::abs(p)) move_or_collide(state, i, axis, p > 0 ? 1 : -1, turns);
+    if (random.uniform() < std::abs(p)) turn.move(axis, p > 0 ? 1 : -1);
   }
-  if (guide.torque.squaredNorm() > 0)
-    rotate_or_collide(model, state, i, guide, random.uniform(), maker, turns);
-  move_or_collide(state, i, 2, up ? 1 : -1, turns);
+  const bool ball = model.kind(state.kind[i]).shape->kind == ShapeClass::sphere;  // looks the same turned
+  if (guide.torque.squaredNorm() > 0 && !ball) turn.rotate(guide.torque, random.uniform());
+  turn.move(2, up ? 1 : -1);
 }
 
 void find_near(const Model& model, State& state) {
+  state.box.resize(state.size());
+  for (std::size_t i = 0; i < state.size(); ++i) state.box[i] = box_of(state.stamp[i], state.cell[i]);
   const auto roamed = [&](std::size_t i) {
     for (std::size_t d = 0; d < 3; ++d)
       if (std::abs(state.cell[i][d] - state.near_since[i][d]) > kRoam) return true;

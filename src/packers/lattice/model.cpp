@@ -148,6 +148,7 @@ Model make_model(const Scene& scene) {
   model.space = open_space(scene, model.frame);
   check_open(scene, model.frame, model.space, model.largest);
   model.rim = model.space.frame.size[2] - 1;
+  for (const PelletKind& kind : scene.pellets) model.probes.emplace_back(*kind.shape, model.rules.voxel);
   model.step_time = scene.feed.interval / model.rules.interval;
   // bounding spheres of two cells more, for what a pellet may move in one step, on both sides
   model.slab = 2 * static_cast<int>(std::ceil(model.largest / model.rules.voxel)) + 8;

@@ -6,6 +6,7 @@
 #include "bed/packed_bed.hpp"
 #include "bed/scene.hpp"
 #include "lattice/occupancy.hpp"
+#include "lattice/probes.hpp"
 
 namespace packbed::lattice {
 
@@ -18,6 +19,7 @@ struct Model {
   GridFrame frame;     // cells of the lattice; z as high as pellets enter
   VoxelGrid space;     // open cells of the container; above its rim as in `rim`
   int rim = 0;
+  std::vector<Probes> probes;      // of each kind of pellet
   double largest = 0;              // bounding radius of the largest pellet [m]
   double step_time = 0;            // that one step stands for in the feed [s]
   std::vector<std::string> notes;  // what the user should know of this scene on a lattice
@@ -65,6 +67,7 @@ struct State {
   std::vector<Guide> guide;  // digicgp
   // digicgp: pellets that may reach pellet i before the next search, near[near_from[i] .. near_from[i + 1])
   std::vector<std::uint32_t> near_from, near;
+  std::vector<CellBox> box;      // digicgp: of each pellet on the lattice
   std::vector<Cell> near_since;  // cells of the pellets at the search
   std::vector<int> slab;         // of height, in this step
   std::vector<Pellet> waiting;   // fed, but there is no room for them yet

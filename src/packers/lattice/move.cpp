@@ -33,10 +33,10 @@ void move(const Model& model, State& state) {
   std::vector<Turns> turns(slabs.size());
   for (std::size_t parity = 0; parity < 2; ++parity)
     parallel_for((slabs.size() + 1 - parity) / 2, 1, [&](std::size_t begin, std::size_t end) {
-      StampMaker maker(model.frame.pitch, model.largest);
+      Workspace work(model);
       for (std::size_t k = begin; k < end; ++k)
         for (const std::uint32_t i : slabs[2 * k + parity])
-          (guided ? move_digicgp : move_digipac)(model, state, i, maker, turns[2 * k + parity]);
+          (guided ? move_digicgp : move_digipac)(model, state, i, work, turns[2 * k + parity]);
     });
   for (const Turns& t : turns) state.tally.add(t.tally);
   if (guided) take_guides(state, turns);
@@ -47,42 +47,55 @@ Random numbers_of(const Model& model, const State& state, std::size_t i) {
   return {model.scene->seed, Stream::lattice_move, state.id[i], static_cast<std::uint32_t>(state.steps)};
 }
 
-bool try_move(State& state, std::size_t i, int axis, int sign, Tally& tally) {
-  ++tally.moves;
-  if (state.lattice.hits_on_move(state.stamp[i], state.cell[i], axis, sign)) return false;
-  state.lattice.move(state.stamp[i], state.cell[i], axis, sign);
-  ++tally.moved;
-  return true;
-}
-
-bool try_rotation(const Model& model, State& state, std::size_t i, const Vec3& axis, double angle,
-                  StampMaker& maker, Tally& tally,
-                  const std::function<void(const Stamp&, const Vec3&)>& blocked) {
-  const Shape& shape = *model.kind(state.kind[i]).shape;
-  if (shape.kind == ShapeClass::sphere) return false;  // looks the same however it is turned
-  ++tally.rotations;
+Quat turn_about(const Vec3& axis, double angle) {
   double sine, cosine;
   sincos_poly(0.5 * angle, sine, cosine);
-  const Quat turn(cosine, sine * axis.x(), sine * axis.y(), sine * axis.z());
-  const Quat rotation = (turn * state.rotation[i]).normalized();
-  Vec3 phase = state.phase[i];
-  Stamp stamp = model.rules.turn_cells ? turn_cells(state.stamp[i], phase, turn)
-                                       : maker.make_true(shape, state.scale[i], rotation, phase);
-  state.lattice.flip(state.stamp[i], state.cell[i]);
-  const bool free = !state.lattice.hits(stamp, state.cell[i]);
-  if (free) {
-    state.stamp[i] = std::move(stamp);
-    state.rotation[i] = rotation;
-    state.phase[i] = phase;
-    ++tally.rotated;
-  } else if (blocked) {
-    blocked(stamp, phase);
-  }
-  state.lattice.flip(state.stamp[i], state.cell[i]);
-  return free;
+  return {cosine, sine * axis.x(), sine * axis.y(), sine * axis.z()};
 }
 
-void move_digipac(const Model& model, State& state, std::size_t i, StampMaker& maker, Turns& turns) {
+Quat turned_rotation(const State& state, std::size_t i, const Quat& turn) {
+  return (turn * state.rotation[i]).normalized();
+}
+
+Turned turned_by(const Model& model, const State& state, std::size_t i, const Quat& turn, StampMaker& maker) {
+  Turned out{turned_rotation(state, i, turn), state.phase[i], {}};
+  out.stamp = model.rules.turn_cells ? turn_cells(state.stamp[i], out.phase, turn)
+                                     : maker.make_true(*model.kind(state.kind[i]).shape, state.scale[i],
+                                                       out.rotation, out.phase);
+  return out;
+}
+
+void take(State& state, std::size_t i, Turned&& turned, Tally& tally) {
+  state.stamp[i] = std::move(turned.stamp);
+  state.rotation[i] = turned.rotation;
+  state.phase[i] = turned.phase;
+  ++tally.rotated;
+}
+
+namespace {
+
+/// Moves a pellet by one cell unless it would share a cell then.
+void try_move(State& state, std::size_t i, int axis, int sign, Tally& tally) {
+  ++tally.moves;
+  if (state.lattice.hits_on_move(state.stamp[i], state.cell[i], axis, sign)) return;
+  state.lattice.move(state.stamp[i], state.cell[i], axis, sign);
+  ++tally.moved;
+}
+
+/// Rotates a pellet unless it would share a cell then.
+void try_rotation(const Model& model, State& state, std::size_t i, const Quat& turn, StampMaker& maker,
+                  Tally& tally) {
+  if (model.kind(state.kind[i]).shape->kind == ShapeClass::sphere) return;  // looks the same turned
+  ++tally.rotations;
+  Turned turned = turned_by(model, state, i, turn, maker);
+  state.lattice.flip(state.stamp[i], state.cell[i]);
+  if (!state.lattice.hits(turned.stamp, state.cell[i])) take(state, i, std::move(turned), tally);
+  state.lattice.flip(state.stamp[i], state.cell[i]);
+}
+
+}  // namespace
+
+void move_digipac(const Model& model, State& state, std::size_t i, Workspace& work, Turns& turns) {
   Random random = numbers_of(model, state, i);
   const LatticeRules& rules = model.rules;
   const std::uint32_t way = random.bits();
@@ -90,7 +103,7 @@ void move_digipac(const Model& model, State& state, std::size_t i, StampMaker& m
   try_move(state, i, static_cast<int>(way & 1U), way & 2U ? 1 : -1, turns.tally);
   if (random.uniform() >= rules.rotation_share) return;
   const double angle = random.uniform() * rules.max_angle;
-  try_rotation(model, state, i, random.on_sphere(), angle, maker, turns.tally);
+  try_rotation(model, state, i, turn_about(random.on_sphere(), angle), work.maker, turns.tally);
 }
 
 }  // namespace packbed::lattice

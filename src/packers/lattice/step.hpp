@@ -1,12 +1,13 @@
 #pragma once
 // The phases of a step, one file each.
 #include <array>
-#include <functional>
 #include <string_view>
 
 #include "dynamics/neighbours.hpp"
+#include "lattice/surroundings.hpp"
 #include "math/random.hpp"
 #include "packers/feed.hpp"
+#include "packers/lattice/collisions.hpp"
 #include "packers/lattice/model.hpp"
 
 namespace packbed::lattice {
@@ -28,22 +29,37 @@ struct Turns {
   std::vector<Push> pushes;  // digicgp: in the order of the turns
 };
 
+/// Memory that is kept from one pellet to the next (one a thread).
+struct Workspace {
+  explicit Workspace(const Model& model) : maker(model.frame.pitch, model.largest) {}
+  StampMaker maker;
+  Hits hits;
+  Collisions collisions;
+  Surroundings surroundings;
+};
+
 /// The moves of one pellet: without forces, and guided by the cells that it collides with.
-void move_digipac(const Model& model, State& state, std::size_t i, StampMaker& maker, Turns& turns);
-void move_digicgp(const Model& model, State& state, std::size_t i, StampMaker& maker, Turns& turns);
+void move_digipac(const Model& model, State& state, std::size_t i, Workspace& work, Turns& turns);
+void move_digicgp(const Model& model, State& state, std::size_t i, Workspace& work, Turns& turns);
 
 /// digicgp: who may collide with whom in this step.
 void find_near(const Model& model, State& state);
 /// digicgp: the collisions of a step guide the next one.
 void take_guides(State& state, const std::vector<Turns>& turns);
 
-/// Moves a pellet by one cell unless it would share a cell then.
-bool try_move(State& state, std::size_t i, int axis, int sign, Tally& tally);
-/// Rotates a pellet about an axis through its centre of mass unless it would share a cell then; `blocked`,
-/// when given, sees what did not fit while the pellet itself is off the lattice.
-bool try_rotation(const Model& model, State& state, std::size_t i, const Vec3& axis, double angle,
-                  StampMaker& maker, Tally& tally,
-                  const std::function<void(const Stamp& tried, const Vec3& phase)>& blocked = {});
+/// A pellet as it would be after a rotation.
+struct Turned {
+  Quat rotation;
+  Vec3 phase;
+  Stamp stamp;
+};
+Quat turn_about(const Vec3& axis, double angle);
+/// What the turn makes of the rotation of pellet i.
+Quat turned_rotation(const State& state, std::size_t i, const Quat& turn);
+/// Pellet i turned about its centre of mass.
+Turned turned_by(const Model& model, const State& state, std::size_t i, const Quat& turn, StampMaker& maker);
+/// Makes the rotation of a pellet that is off the lattice.
+void take(State& state, std::size_t i, Turned&& turned, Tally& tally);
 /// Its random numbers of this step.
 Random numbers_of(const Model& model, const State& state, std::size_t i);
 

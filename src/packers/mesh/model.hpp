@@ -13,6 +13,7 @@
 #include "contact/law.hpp"
 #include "contact/patches.hpp"
 #include "dynamics/bodies.hpp"
+#include "dynamics/doze.hpp"
 #include "dynamics/neighbours.hpp"
 #include "packers/rest_watch.hpp"
 #include "packers/shaking.hpp"
@@ -126,15 +127,6 @@ struct Pairs {
   std::vector<std::uint32_t> first, entry;
   std::vector<std::uint32_t> shore;  // sleepers beside something that moves, ascending
   std::uint8_t shore_stale = 1;
-};
-
-/// Sleep and its shadow integration (see sleep.cpp).
-struct Doze {
-  Vec3 anchor = Vec3::Zero();  // position when the watch began [m]
-  Quat anchor_rotation = Quat::Identity();
-  Vec3 force = Vec3::Zero(), torque = Vec3::Zero();      // net, when it fell asleep [N], [N m]
-  Vec3 shift = Vec3::Zero(), shift_rate = Vec3::Zero();  // how far it would have moved [m], [m/s]
-  Vec3 turn = Vec3::Zero(), turn_rate = Vec3::Zero();    // ... and turned [rad], [rad/s]
 };
 
 /// Totals since the start, each added in fixed order.

@@ -1,12 +1,6 @@
-// Phase sleep: pellets that have settled stand still until something would move them.
-//
-// Falling asleep: over one watch a body has moved and turned by less than a small fraction of its size, and
-// touches something. Waking: a shadow of the body is integrated instead of the body. The change of the net
-// force since it fell asleep drives an oscillator of the period and damping of a contact; the shadow's
-// displacement is how far the body would have gone. A short knock from a far impact moves it little, a
-// lasting push moves it far. What hangs on after its support has gone moves little in the shadow, whose
-// contact is always there: so at the end of each watch the contacts of a sleeper are asked what they still
-// carry.
+// Phase sleep: pellets that have settled stand still until something would move them (dynamics/doze.hpp). One
+// that touches nothing stays awake, and at the end of each watch the contacts of a sleeper are asked what
+// they still carry.
 #include <algorithm>
 #include <cmath>
 
@@ -16,28 +10,14 @@
 namespace packbed::mesh {
 namespace {
 
-// Length of one watch, in contact times: several periods of a pellet on its contacts.
-constexpr double kWatchContacts = 60;
-// Contacts that carry less than when the body fell asleep, together by this fraction of its weight, are a
-// lost support.
-constexpr double kLostSupport = 0.3;
-
 double size_of(const Model& model, const Bodies& b, std::size_t i) {
   return b.scale[i] * model.kinds[b.kind[i]].shape->equivalent_diameter();
 }
 
-void begin_watch(State& state, std::size_t i) {
-  state.doze[i].anchor = state.bodies.position[i];
-  state.doze[i].anchor_rotation = state.bodies.rotation[i];
-}
-
 bool has_settled(const Model& model, const State& state, std::size_t i) {
   const Bodies& b = state.bodies;
-  const Doze& d = state.doze[i];
-  const double size = size_of(model, b, i), limit = model.stepping.sleep_displacement * size;
-  if ((b.position[i] - d.anchor).norm() > limit) return false;
-  const double turn = 2.0 * (b.rotation[i].coeffs() - d.anchor_rotation.coeffs()).norm();
-  if (0.5 * size * turn > limit) return false;
+  const double size = size_of(model, b, i);
+  if (!has_stayed(state.doze[i], b, i, size, model.stepping.sleep_displacement * size)) return false;
   const Pairs& pairs = state.pairs;
   for (std::uint32_t e = pairs.first[i]; e < pairs.first[i + 1]; ++e)
     if (pairs.load[pairs.entry[e] >> 1].delta > 0) return true;
@@ -46,24 +26,16 @@ bool has_settled(const Model& model, const State& state, std::size_t i) {
 
 void wake(State& state, std::size_t i) {
   state.bodies.motion[i] = Motion::awake;
-  begin_watch(state, i);
+  begin_watch(state.doze[i], state.bodies, i);
   ++state.ledger.wakes;
   state.search_due = 1;
 }
 
-void fall_asleep(State& state, std::size_t i) {
+void put_to_sleep(State& state, std::size_t i) {
   Bodies& b = state.bodies;
   state.ledger.removed += kinetic_translation(b, i) + kinetic_rotation(b, i);
   ++state.ledger.sleeps;
-  b.motion[i] = Motion::asleep;
-  halt(b, i);
-  Doze& d = state.doze[i];
-  d.force = b.force[i];
-  d.torque = b.torque[i];
-  d.shift.setZero();
-  d.shift_rate.setZero();
-  d.turn.setZero();
-  d.turn_rate.setZero();
+  fall_asleep(state.doze[i], b, i);
   Pairs& pairs = state.pairs;
   for (std::uint32_t e = pairs.first[i]; e < pairs.first[i + 1]; ++e) {
     const std::uint32_t p = pairs.entry[e] >> 1;
@@ -72,22 +44,13 @@ void fall_asleep(State& state, std::size_t i) {
   state.search_due = 1;
 }
 
-/// One step of the shadow: a damped oscillator under the change of force. True when it has gone too far.
+/// True when the shadow has gone too far.
 bool shadow_wakes(const Model& model, State& state, std::size_t i) {
   Bodies& b = state.bodies;
-  Doze& d = state.doze[i];
   gather(state, i, b.force[i], b.torque[i]);
-  const double stiffness = model.pellet_law.stiffness, omega2 = stiffness * b.inverse_mass[i],
-               omega = std::sqrt(omega2);
-  const double step = model.step;
-  const Vec3 push = b.inverse_mass[i] * (b.force[i] - d.force);
-  const Vec3 twist = inverse_inertia_times(b, i, b.torque[i] - d.torque);
-  d.shift_rate += step * (push - omega2 * d.shift - 2.0 * omega * d.shift_rate);
-  d.shift += step * d.shift_rate;
-  d.turn_rate += step * (twist - omega2 * d.turn - 2.0 * omega * d.turn_rate);
-  d.turn += step * d.turn_rate;
-  const double size = size_of(model, b, i), limit = model.stepping.sleep_displacement * size;
-  return d.shift.norm() + 0.5 * size * d.turn.norm() > limit;
+  const double size = size_of(model, b, i);
+  return step_shadow(state.doze[i], b, i, size, model.pellet_law.stiffness, model.step) >
+         model.stepping.sleep_displacement * size;
 }
 
 /// The contacts that can change carry less than they did when the body fell asleep.
@@ -145,9 +108,9 @@ void sleep(const Model& model, State& state) {
   for (std::uint32_t i : state.awake) {
     if (b.motion[i] != Motion::awake) continue;
     if (has_settled(model, state, i))
-      fall_asleep(state, i);
+      put_to_sleep(state, i);
     else
-      begin_watch(state, i);
+      begin_watch(state.doze[i], b, i);
   }
 }
 
