@@ -83,7 +83,7 @@ struct DemState {
   std::vector<Vec3> listed_at;  // position at the last search [m]
   std::uint8_t search_due = 1, at_rest = 0, waited = 0;
   double time = 0;
-  std::int64_t steps = 0, snapshots = 0, searches = 0;
+  std::int64_t steps = 0, snapshots = 0, searches = 0, sleeps = 0, wakes = 0;
   double rest_since = -1, rest_speed = 0, rest_drift = 0;
   std::vector<Vec3> rest_anchor;
   ShakeState shake;

@@ -14,7 +14,7 @@
 namespace packbed::lattice {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'44000003;  // changes with any change of DemState
+constexpr std::uint64_t kFormat = 0x706b6264'44000004;  // changes with any change of DemState
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>
@@ -27,7 +27,7 @@ void visit(Archive& io, S& s) {
   io(b.force), io(b.torque), io(b.motion);
   io(s.drawn), io(s.cell), io(s.offset), io(s.turn), io(s.phase), io(s.version), io(s.touches), io(s.doze),
       io(s.last_watch), io(s.listed_at), io(s.search_due), io(s.at_rest), io(s.waited);
-  io(s.time), io(s.steps), io(s.snapshots), io(s.searches);
+  io(s.time), io(s.steps), io(s.snapshots), io(s.searches), io(s.sleeps), io(s.wakes);
   visit_shake(io, s.shake);
   io(s.rest_since), io(s.rest_speed), io(s.rest_drift), io(s.rest_anchor), io(s.peak), io(s.wall_s),
       io(s.cpu_s);
@@ -170,6 +170,8 @@ PackResult pack_digidem(const Scene& scene, const Watch& watch, std::span<const 
   record.counters = {{"stiffness_pellet_N_per_m", model.pellet.stiffness},
                      {"stiffness_wall_N_per_m", model.wall.stiffness},
                      {"searches", static_cast<double>(state.searches)},
+                     {"sleeps", static_cast<double>(state.sleeps)},
+                     {"wakes", static_cast<double>(state.wakes)},
                      {"touches", static_cast<double>(state.touches.size())},
                      {"voxel_m", model.base.frame.pitch}};
   record.taps = state.shake.found;
