@@ -45,8 +45,9 @@ int check(const CheckOptions&);
 
 struct CompareOptions {
   std::vector<std::string> inputs;  // result folders, bed.h5, voxels.h5; with ladder: one case
-  std::string out = "comparison", pitch = "0.1 mm";
-  double from = 3, to = 17;  // middle section [dp]
+  std::string out = "comparison";
+  std::optional<std::string> pitch;  // unset: as the case of the first bed says, else as a case is without it
+  std::optional<double> from, to;    // middle section [dp]; unset: likewise
   bool ladder = false, quiet = false;
   std::vector<std::string> methods{"digipac", "digicgp", "digidem", "mesh"};
   std::vector<std::string> sets;  // key=value, of the ladder's case

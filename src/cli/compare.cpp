@@ -7,6 +7,7 @@
 #include "analysis/analyse.hpp"
 #include "cli/commands.hpp"
 #include "io/bed.hpp"
+#include "io/case.hpp"
 #include "io/comparison.hpp"
 #include "io/grid.hpp"
 #include "io/result_folder.hpp"
@@ -42,6 +43,23 @@ Compared look_at(const std::string& input, const AnalysisWish& wish) {
   return out;
 }
 
+/// What all beds are measured by: what the options say, and for the rest the case of the first bed.
+AnalysisWish wish_of(const CompareOptions& options) {
+  AnalysisWish wish;
+  const std::string& first = options.inputs.front();
+  if (!holds_grid(first)) try {
+      const std::string text = read_bed(first).provenance.case_text;
+      if (!text.empty()) wish = read_case_text(text, first).analysis;
+    } catch (const InputError&) {  // its CAD files are not here any more: as a case is by itself
+    }
+  if (options.pitch) wish.voxel = parse_quantity(*options.pitch, Dimension::length, "--pitch");
+  if (options.from) wish.from_diameters = *options.from;
+  if (options.to) wish.to_diameters = *options.to;
+  wish.voxels = wish.orientation = wish.exact = true;
+  wish.overlap = false;
+  return wish;
+}
+
 /// Packs the case by every method that has not been packed yet; returns the folders.
 std::vector<std::string> ladder(const CompareOptions& options) {
   if (options.inputs.size() != 1)
@@ -74,11 +92,7 @@ int compare(const CompareOptions& given) {
     throw InputError(options.out, error.message(), "a folder that can be made", "choose another --out");
   if (options.ladder) options.inputs = ladder(options);
   set_threads(options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency()));
-  AnalysisWish wish;
-  wish.voxel = parse_quantity(options.pitch, Dimension::length, "--pitch");
-  wish.from_diameters = options.from;
-  wish.to_diameters = options.to;
-  wish.overlap = false;
+  const AnalysisWish wish = wish_of(options);
   std::vector<Compared> beds;
   for (const std::string& input : options.inputs) beds.push_back(look_at(input, wish));
   write_comparison(options.out, beds);

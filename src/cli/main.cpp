@@ -112,9 +112,11 @@ void add_compare(CLI::App& app, int& code) {
   c->add_option("inputs", o->inputs, "result folders, bed.h5 or voxels.h5; with --ladder one case file")
       ->required();
   c->add_option("--out", o->out, "folder for tables, curves and the page (default: comparison)");
-  c->add_option("--pitch", o->pitch, "edge of a voxel for beds, e.g. \"0.1 mm\"");
-  c->add_option("--from", o->from, "lower end of the middle section, in pellet diameters");
-  c->add_option("--to", o->to, "upper end of the middle section, in pellet diameters");
+  c->add_option("--pitch", o->pitch,
+                "edge of a voxel for beds, e.g. \"0.1 mm\" (default: as the case of the first bed says)");
+  c->add_option("--from", o->from,
+                "lower end of the middle section, in pellet diameters (default: likewise)");
+  c->add_option("--to", o->to, "upper end of the middle section, in pellet diameters (default: likewise)");
   c->add_flag("--ladder", o->ladder, "pack the case by each of --methods first, unless that has been done");
   c->add_option("--methods", o->methods, "of the ladder (default: digipac,digicgp,digidem,mesh)")
       ->delimiter(',');

@@ -68,19 +68,22 @@ std::uint64_t prefix_xor(std::uint64_t w) {
   return w;
 }
 
-/// Sets bits [from, to) of a row.
-void fill(std::uint64_t* row, int from, int to) {
+/// Calls change(word, bits) with bits [from, to) of a row, word by word.
+template <class Change>
+void in_words(std::uint64_t* row, int from, int to, const Change& change) {
   if (to <= from) return;
   const int first = from / 64, last = (to - 1) / 64;
-  const std::uint64_t head = ~std::uint64_t{0} << (from % 64),
-                      tail = ~std::uint64_t{0} >> (63 - (to - 1) % 64);
-  if (first == last) {
-    row[first] |= head & tail;
-    return;
+  for (int w = first; w <= last; ++w) {
+    const std::uint64_t head = w == first ? ~std::uint64_t{0} << (from % 64) : ~std::uint64_t{0},
+                        tail = w == last ? ~std::uint64_t{0} >> (63 - (to - 1) % 64) : ~std::uint64_t{0};
+    change(row[w], head & tail);
   }
-  row[first] |= head;
-  for (int w = first + 1; w < last; ++w) row[w] = ~std::uint64_t{0};
-  row[last] |= tail;
+}
+void fill(std::uint64_t* row, int from, int to) {
+  in_words(row, from, to, [](std::uint64_t& word, std::uint64_t bits) { word |= bits; });
+}
+void clear(std::uint64_t* row, int from, int to) {
+  in_words(row, from, to, [](std::uint64_t& word, std::uint64_t bits) { word &= ~bits; });
 }
 
 int floor_div(int a, int b) {
@@ -125,19 +128,28 @@ void Rasteriser::sphere(const Vec3& centre, double radius) {
     }
 }
 
-void Rasteriser::cylinder(const Vec3& centre, const Vec3& axis, double radius, double half_height) {
+void Rasteriser::cylinder(const Vec3& centre, const Vec3& axis, double radius, double bore,
+                          double half_height) {
   intervals_.box = {block_.y, block_.ny, block_.z, block_.nz};
   const Vec3 from_block = centre - Vec3(64.0 * block_.word, 0, 0);
-  cylinder_intervals(from_block, axis, radius, half_height, 64 * block_.words, intervals_);
-  block_.count = 0;
-  for (int k = 0; k < block_.nz; ++k) {
-    const std::int32_t *from = intervals_.from.data() + intervals_.at(k),
-                       *to = intervals_.to.data() + intervals_.at(k);
-    for (int j = 0; j < block_.ny; ++j) {
-      fill(block_.row(j, k), from[j], to[j]);
-      block_.count += std::max(0, to[j] - from[j]);
+  const auto in_rows = [&](double r, const auto& change) {
+    cylinder_intervals(from_block, axis, r, half_height, 64 * block_.words, intervals_);
+    for (int k = 0; k < block_.nz; ++k) {
+      const std::int32_t *from = intervals_.from.data() + intervals_.at(k),
+                         *to = intervals_.to.data() + intervals_.at(k);
+      for (int j = 0; j < block_.ny; ++j) change(block_.row(j, k), from[j], to[j]);
     }
-  }
+  };
+  block_.count = 0;
+  in_rows(radius, [&](std::uint64_t* row, int from, int to) {
+    fill(row, from, to);
+    block_.count += std::max(0, to - from);
+  });
+  if (bore > 0)
+    in_rows(bore, [&](std::uint64_t* row, int from, int to) {
+      clear(row, from, to);  // its cells are the cylinder's
+      block_.count -= std::max(0, to - from);
+    });
 }
 
 template <class Int>
@@ -239,7 +251,8 @@ const BitBlock& Rasteriser::mesh(const TriangleMesh& surface, const Pose& pose, 
 }
 
 const BitBlock& Rasteriser::body(const Shape& shape, const Pose& pose, double scale, int z_begin, int z_end) {
-  if (seen_as_mesh(shape.kind)) return mesh(shape.surface, pose, scale, z_begin, z_end);
+  if (seen_as_mesh(shape.kind) && shape.kind != ShapeClass::tube)
+    return mesh(shape.surface, pose, scale, z_begin, z_end);
   const Vec3 centre = (pose.position - frame_.origin) / frame_.pitch - Vec3::Constant(0.5);
   const double size = scale / frame_.pitch, radius = shape.radius * size, half = shape.half_height * size;
   if (shape.kind == ShapeClass::sphere) {
@@ -248,7 +261,8 @@ const BitBlock& Rasteriser::body(const Shape& shape, const Pose& pose, double sc
   }
   const Vec3 a = pose.rotation * Vec3::UnitZ();
   const Vec3 reach = reach_of_cylinder(a, radius, half);
-  if (set_box(centre - reach, centre + reach, z_begin, z_end)) cylinder(centre, a, radius, half);
+  if (set_box(centre - reach, centre + reach, z_begin, z_end))
+    cylinder(centre, a, radius, shape.kind == ShapeClass::tube ? size * shape.inner_radius : 0, half);
   return block_;
 }
 

@@ -7,7 +7,7 @@
 //                 a prefix exclusive-or along x turns crossings into solid. Each row is crossed an even
 //                 number of times, so a closed mesh closes in every pose (after Schwarz & Seidel, ACM TOG 29,
 //                 2010).
-//   sphere, cylinder   the interval of x that a row has inside the body, in closed form.
+//   sphere, cylinder, tube   the interval of x that a row has inside the body, in closed form.
 #include <cstdint>
 #include <vector>
 
@@ -58,7 +58,7 @@ class Rasteriser {
   };
   bool set_box(const Vec3& low, const Vec3& high, int z_begin, int z_end);
   void sphere(const Vec3& centre, double radius);
-  void cylinder(const Vec3& centre, const Vec3& axis, double radius, double half_height);
+  void cylinder(const Vec3& centre, const Vec3& axis, double radius, double bore, double half_height);
   template <class Int>
   void triangle(const Corner& a, const Corner& b, const Corner& c);
   void close_rows();

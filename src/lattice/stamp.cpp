@@ -77,23 +77,39 @@ PACKBED_WIDE void look_at_slice(const std::int32_t* from, const std::int32_t* to
   seen = {first, last, low, high, count};
 }
 
-/// Rows of one word whose first bit is cell `first`, eight at a time: bits [from, to).
-PACKBED_WIDE void fill_rows(const std::int32_t* from, const std::int32_t* to, int n, int first,
-                            std::uint64_t* row) {
+/// Bits [from, to) of eight rows of a word whose first bit is cell `first`.
+inline void bits_between(const std::int32_t* from, const std::int32_t* to, int first, Words8& out) {
   const Numbers8 none{}, word = none + 64, offset = none + first;
   const Words8 all = ~Words8{};
+  Numbers8 f, t;
+  load(from, f);
+  load(to, t);
+  f -= offset, t -= offset;
+  f = f < none ? none : f > word ? word : f;
+  t = t < f ? f : t > word ? word : t;
+  const Words8 begin = __builtin_convertvector(f, Words8), end = __builtin_convertvector(t, Words8);
+  // by two shifts: one by 64 would be none
+  const Words8 from_begin = (all << (begin >> 1)) << (begin - (begin >> 1));
+  const Words8 from_end = (all << (end >> 1)) << (end - (end >> 1));
+  out = from_begin & ~from_end;
+}
+
+/// Rows of one word, eight at a time.
+PACKBED_WIDE void fill_rows(const std::int32_t* from, const std::int32_t* to, int n, int first,
+                            std::uint64_t* row) {
   for (int j = 0; j < n; j += kWords8) {
-    Numbers8 f, t;
-    load(from + j, f);
-    load(to + j, t);
-    f -= offset, t -= offset;
-    f = f < none ? none : f > word ? word : f;
-    t = t < f ? f : t > word ? word : t;
-    const Words8 begin = __builtin_convertvector(f, Words8), end = __builtin_convertvector(t, Words8);
-    // by two shifts: one by 64 would be none
-    const Words8 from_begin = (all << (begin >> 1)) << (begin - (begin >> 1));
-    const Words8 from_end = (all << (end >> 1)) << (end - (end >> 1));
-    store(from_begin & ~from_end, row + j);
+    Words8 bits;
+    bits_between(from + j, to + j, first, bits);
+    store(bits, row + j);
+  }
+}
+PACKBED_WIDE void clear_rows(const std::int32_t* from, const std::int32_t* to, int n, int first,
+                             std::uint64_t* row) {
+  for (int j = 0; j < n; j += kWords8) {
+    Words8 bits, here;
+    bits_between(from + j, to + j, first, bits);
+    load(row + j, here);
+    store(here & ~bits, row + j);
   }
 }
 
@@ -194,8 +210,8 @@ void set_ranges(Stamp& stamp) {
 }
 
 /// The cells of the intervals; row 0 of their box is y = box.y from the pellet's cell, and so on; x = 0 is
-/// `x_first` from it.
-Stamp stamp_of(const RowIntervals& rows, int x_first) {
+/// `x_first` from it. Without the cells of `bore`, when given, which has the same box.
+Stamp stamp_of(const RowIntervals& rows, const RowIntervals* bore, int x_first) {
   std::vector<Extent> spans(static_cast<std::size_t>(rows.box.nz));  // of the rows of each slice
   Box box;
   std::int64_t count = 0;
@@ -221,14 +237,16 @@ Stamp stamp_of(const RowIntervals& rows, int x_first) {
     for (int w = 0; w < stamp.words; ++w) {
       const std::size_t at = rows.at(box.z.low + k) + static_cast<std::size_t>(span.low);
       // eight rows may reach beyond the last one, where the intervals have nothing either
-      fill_rows(rows.from.data() + at, rows.to.data() + at, span.size(), box.x.low - 1 + 64 * w,
-                rows_of(stamp, k, w) + (span.low - box.y.low));
+      const int first = box.x.low - 1 + 64 * w;
+      std::uint64_t* to = rows_of(stamp, k, w) + (span.low - box.y.low);
+      fill_rows(rows.from.data() + at, rows.to.data() + at, span.size(), first, to);
+      if (bore) clear_rows(bore->from.data() + at, bore->to.data() + at, span.size(), first, to);
     }
   }
   stamp.low[0] += x_first;
   stamp.low[1] += rows.box.y;
   stamp.low[2] += rows.box.z;
-  stamp.count = count;
+  stamp.count = bore ? count_bits(stamp.bits.data(), stamp.bits.size()) : count;
   return stamp;
 }
 
@@ -284,7 +302,8 @@ StampMaker::StampMaker(double pitch, double largest)
     : frame_(frame_round(pitch, largest)), middle_(frame_.size[0] / 2), rasteriser_(frame_) {}
 
 Stamp StampMaker::make(const Shape& shape, double scale, const Quat& rotation, const Vec3& phase) {
-  if (shape.kind == ShapeClass::cylinder) return make_cylinder(shape, scale / frame_.pitch, rotation, phase);
+  if (shape.kind == ShapeClass::cylinder || shape.kind == ShapeClass::tube)
+    return make_cylinder(shape, scale / frame_.pitch, rotation, phase);
   const Vec3 centre = frame_.pitch * (phase.array() + (middle_ + 0.5)).matrix();
   return stamp_of(rasteriser_.body(shape, {centre, rotation}, scale, 0, frame_.size[2]), middle_);
 }
@@ -297,8 +316,12 @@ Stamp StampMaker::make_cylinder(const Shape& shape, double scale, const Quat& ro
   whole_numbers(phase.x() - reach.x(), phase.x() + reach.x(), x_first, length);
   whole_numbers(phase.y() - reach.y(), phase.y() + reach.y(), rows_.box.y, rows_.box.ny);
   whole_numbers(phase.z() - reach.z(), phase.z() + reach.z(), rows_.box.z, rows_.box.nz);
-  cylinder_intervals(phase - Vec3(x_first, 0, 0), axis, radius, half, length, rows_);
-  return stamp_of(rows_, x_first);
+  const Vec3 centre = phase - Vec3(x_first, 0, 0);
+  cylinder_intervals(centre, axis, radius, half, length, rows_);
+  if (shape.kind == ShapeClass::cylinder) return stamp_of(rows_, nullptr, x_first);
+  bore_.box = rows_.box;
+  cylinder_intervals(centre, axis, scale * shape.inner_radius, half, length, bore_);
+  return stamp_of(rows_, &bore_, x_first);
 }
 
 Vec3 StampMaker::first_phase() {

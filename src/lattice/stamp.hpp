@@ -55,7 +55,7 @@ class StampMaker {
   Stamp make_cylinder(const Shape& shape, double scale, const Quat& rotation, const Vec3& phase);
 
   GridFrame frame_;
-  RowIntervals rows_;
+  RowIntervals rows_, bore_;
   int middle_;  // the pellet's cell in frame_, along each axis
   Rasteriser rasteriser_;
 };

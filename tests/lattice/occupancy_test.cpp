@@ -128,6 +128,33 @@ TEST(Occupancy, AgreesWithCellsOneByOne) {
   EXPECT_GT(went, 100);
 }
 
+TEST(Stamp, OfATubeHasTheCellsWhoseCentresLieInItsWall) {
+  const double radius = 2.3e-3, inner = 1.25e-3, half = 2.5e-3;
+  const auto ring = make_ring("ring", 2 * radius, 2 * inner, 2 * half);
+  StampMaker maker(kPitch, 4e-3);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    Random random(11, Stream::test, i);
+    const Quat rotation = i == 0 ? Quat::Identity() : random.rotation();
+    const Vec3 phase(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
+    const Stamp stamp = maker.make(*ring, 1, rotation, phase);
+    std::int64_t cells = 0;
+    for (int z = -40; z <= 40; ++z)
+      for (int y = -40; y <= 40; ++y)
+        for (int x = -40; x <= 40; ++x) {
+          const Vec3 at = rotation.conjugate() * (kPitch * (Vec3(x, y, z) - phase));
+          const double r = at.head<2>().norm();
+          const bool inside = std::abs(at.z()) <= half && r <= radius && r > inner;
+          cells += inside;
+          ASSERT_EQ(has_cell(stamp, {x, y, z}), inside) << x << ' ' << y << ' ' << z;
+        }
+    EXPECT_EQ(stamp.count, cells);
+    GridFrame frame = box(100, 100, 100);
+    const Vec3 centre = kPitch * (Vec3(50.5, 50.5, 50.5) + phase);
+    Rasteriser rasteriser(frame);
+    EXPECT_EQ(rasteriser.body(*ring, {centre, rotation}, 1, 0, 100).count, cells);
+  }
+}
+
 TEST(Stamp, HasTheCellsThatTheRasteriserGives) {
   const GridFrame frame = box(100, 100, 100);
   StampMaker maker(kPitch, 4e-3);

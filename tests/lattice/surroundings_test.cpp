@@ -103,23 +103,25 @@ TEST(Surroundings, AreTheLatticeWithoutThePellet) {
 
 TEST(Probes, AreCellsOfThePellet) {
   StampMaker maker(kPitch, 4e-3);
-  const auto shape = test::cylinder(2.7e-3, 1.8e-3);
-  const Probes probes(*shape, kPitch);
-  for (std::uint32_t i = 0; i < 300; ++i) {
-    Random random(9, Stream::test, i);
-    const double scale = random.uniform(0.7, 1.3);
-    const Quat rotation = random.rotation();
-    const Vec3 phase = StampMaker::first_phase();
-    const Stamp stamp = maker.make(*shape, scale, rotation, phase);
-    int seen = 0;
-    const auto look = [&](const Cell& c) {
-      ++seen;
-      EXPECT_TRUE(has_cell(stamp, c));
-      return false;
-    };
-    EXPECT_FALSE(probes.meet(scale, rotation, phase, look));
-    EXPECT_GT(seen, 40);  // of 94 points; the cells of the others have their centres outside
-    EXPECT_TRUE(probes.meet(scale, rotation, phase, [](const Cell&) { return true; }));
+  for (const ShapePtr& shape :
+       {ShapePtr(test::cylinder(2.7e-3, 1.8e-3)), make_ring("ring", 4e-3, 3e-3, 2e-3)}) {
+    const Probes probes(*shape, kPitch);
+    for (std::uint32_t i = 0; i < 300; ++i) {
+      Random random(9, Stream::test, i);
+      const double scale = random.uniform(0.7, 1.3);
+      const Quat rotation = random.rotation();
+      const Vec3 phase = StampMaker::first_phase();
+      const Stamp stamp = maker.make(*shape, scale, rotation, phase);
+      int seen = 0;
+      const auto look = [&](const Cell& c) {
+        ++seen;
+        EXPECT_TRUE(has_cell(stamp, c));
+        return false;
+      };
+      EXPECT_FALSE(probes.meet(scale, rotation, phase, look));
+      EXPECT_GT(seen, 40);  // of some hundred points; the cells of the others have their centres outside
+      EXPECT_TRUE(probes.meet(scale, rotation, phase, [](const Cell&) { return true; }));
+    }
   }
 }
 
