@@ -35,7 +35,18 @@ double step_shadow(Doze& doze, const Bodies& bodies, std::size_t i, double size,
   doze.shift += step * doze.shift_rate;
   doze.turn_rate += step * (twist - omega2 * doze.turn - 2.0 * omega * doze.turn_rate);
   doze.turn += step * doze.turn_rate;
-  return doze.shift.norm() + 0.5 * size * doze.turn.norm();
+  const double per = 1 / omega;
+  return doze.shift.norm() + per * doze.shift_rate.norm() +
+         0.5 * size * (doze.turn.norm() + per * doze.turn_rate.norm());
+}
+
+void wake_from_shadow(Doze& doze, Bodies& bodies, std::size_t i) {
+  bodies.motion[i] = Motion::awake;
+  begin_watch(doze, bodies, i);
+  bodies.velocity[i] = doze.shift_rate;
+  bodies.spin[i] = doze.turn_rate;
+  const Quat& q = bodies.rotation[i];
+  bodies.angular_momentum[i] = q * Vec3(bodies.inertia[i].cwiseProduct(q.conjugate() * doze.turn_rate));
 }
 
 }  // namespace packbed

@@ -31,9 +31,13 @@ void begin_watch(Doze& doze, const Bodies& bodies, std::size_t i);
 bool has_stayed(const Doze& doze, const Bodies& bodies, std::size_t i, double size, double limit);
 /// Stops the body and remembers its force and torque.
 void fall_asleep(Doze& doze, Bodies& bodies, std::size_t i);
-/// One step of the shadow under the body's present force and torque; returns how far it is off [m].
+/// One step of the shadow under the body's present force and torque; returns how far it is off and, by its
+/// velocity, still going [m].
 /// `stiffness`: of a contact [N/m].
 double step_shadow(Doze& doze, const Bodies& bodies, std::size_t i, double size, double stiffness,
                    double step);
+/// Wakes a body whose shadow has gone too far: it goes on with the shadow's velocity and spin. Without, it
+/// would have stood like a wall until then, and what it was hit by so far would be lost.
+void wake_from_shadow(Doze& doze, Bodies& bodies, std::size_t i);
 
 }  // namespace packbed

@@ -54,26 +54,6 @@ TEST(DigiDem, APelletOnItsEdgeFallsOver) {
   EXPECT_NEAR(r.bed.pellets[0].pose.position.z(), 1.5e-3, 0.5 * kVoxel);
 }
 
-// One lies on the floor and has fallen asleep when the other runs into its side: it is pushed as far as if it
-// had been awake. Where a hit lands on the voxels matters for each, so the mean of several.
-TEST(DigiDem, ASleeperThatIsHitIsPushedAway) {
-  double slept = 0, awake = 0;
-  for (int k = 0; k < 12; ++k) {
-    Scene s =
-        scene_of({at({0, 0, 1.55e-3}), at({-17e-3, (k - 5.5) * 0.07e-3, 13e-3}, {0.3, 0, 0})}, 0.4, 0.4);
-    s.pellet_contact.stiffness = s.wall_contact.stiffness = 5e3;  // short contacts, so that it sleeps in time
-    const PackResult with = pack_lattice(s, {});
-    EXPECT_GE(with.record.counters.at("wakes"), 1);
-    s.stepping.sleep = false;
-    const PackResult without = pack_lattice(s, {});
-    EXPECT_EQ(without.record.counters.at("sleeps"), 0);
-    slept += with.bed.pellets[0].pose.position.x() / 12;
-    awake += without.bed.pellets[0].pose.position.x() / 12;
-  }
-  EXPECT_GT(awake, 1e-3);
-  EXPECT_NEAR(slept, awake, 0.25 * awake);
-}
-
 TEST(DigiDem, RefusesAStepThatItsContactsCannotBear) {
   Scene s = scene_of({at({0, 0, 3e-3})}, 0.5, 0.4);
   s.case_file = "coarse.toml";

@@ -18,8 +18,7 @@ double size_of(const DemModel& model, const DemState& state, std::size_t i) {
 }
 
 void wake(DemState& state, std::size_t i) {
-  state.bodies.motion[i] = Motion::awake;
-  begin_watch(state.doze[i], state.bodies, i);
+  wake_from_shadow(state.doze[i], state.bodies, i);
   ++state.wakes;
   state.stale = 1;
 }
@@ -121,11 +120,7 @@ void dem_sleep(const DemModel& model, DemState& state) {
     }
   });
   for (std::size_t k = 0; k < state.shore.size(); ++k)
-    if (wakes[k]) {
-      const std::uint32_t i = state.shore[k];
-      wake(state, i);
-      state.bodies.velocity[i] = state.doze[i].shift_rate;  // it would have been on its way
-    }
+    if (wakes[k]) wake(state, state.shore[k]);
   if (watch_ends) let_sleep(model, state);
 }
 

@@ -25,8 +25,9 @@ bool has_settled(const Model& model, const State& state, std::size_t i) {
 }
 
 void wake(State& state, std::size_t i) {
-  state.bodies.motion[i] = Motion::awake;
-  begin_watch(state.doze[i], state.bodies, i);
+  Bodies& b = state.bodies;
+  wake_from_shadow(state.doze[i], b, i);
+  state.ledger.removed -= kinetic_translation(b, i) + kinetic_rotation(b, i);
   ++state.ledger.wakes;
   state.search_due = 1;
 }

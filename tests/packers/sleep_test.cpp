@@ -1,0 +1,55 @@
+// Sleep must not change what happens (dynamics/doze.hpp).
+#include <gtest/gtest.h>
+
+#include "../shapes.hpp"
+#include "packers/packer.hpp"
+
+namespace packbed {
+namespace {
+
+class Sleep : public testing::TestWithParam<std::string> {
+ protected:
+  PackResult run(double aside, bool sleep) const {
+    Scene s;
+    s.method = GetParam();
+    s.pellets = {{test::cylinder(4e-3, 3e-3), 1000, 1}};
+    s.container = make_tube("tube", 40e-3, 60e-3);
+    s.lattice.voxel = s.analysis.voxel = 0.2e-3;
+    for (ContactLaw* law : {&s.pellet_contact, &s.wall_contact}) {
+      law->friction = law->damping_ratio = 0.4;
+      law->stiffness = 5e3;
+    }
+    PlacedPellet lies, comes;
+    lies.pose.position = {0, 0, 1.55e-3};
+    comes.pose.position = {-17e-3, aside, 13e-3};
+    comes.velocity = {0.3, 0, 0};
+    s.feed.kind = FeedKind::placed;
+    s.feed.placed = {lies, comes};
+    s.stepping.sleep = sleep;
+    return pack(s, {});
+  }
+};
+
+// One lies on the floor and has fallen asleep when the other runs into its side: it is pushed as far as if it
+// had been awake. Where a hit lands on voxels matters for each, so the mean of several. A sleeper that stood
+// like a wall until its shadow had gone its way, and then began at rest, went half as far.
+TEST_P(Sleep, WhatIsHitIsPushedAsFarAsIfAwake) {
+  double slept = 0, awake = 0;
+  for (int k = 0; k < 12; ++k) {
+    const double aside = (k - 5.5) * 0.07e-3;
+    const PackResult with = run(aside, true), without = run(aside, false);
+    EXPECT_GE(with.record.counters.at("wakes"), 1);
+    EXPECT_EQ(without.record.counters.at("wakes"), 0);
+    EXPECT_TRUE(with.record.at_rest && without.record.at_rest);
+    slept += with.bed.pellets[0].pose.position.x() / 12;
+    awake += without.bed.pellets[0].pose.position.x() / 12;
+  }
+  EXPECT_GT(awake, 1e-3);
+  EXPECT_NEAR(slept, awake, 0.08 * awake);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Sleep, testing::Values("mesh", "digidem"),
+                         [](const auto& p) { return p.param; });
+
+}  // namespace
+}  // namespace packbed
