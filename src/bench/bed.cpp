@@ -55,12 +55,6 @@ const std::vector<Column> kColumns = {{"packing density", &PouredBed::density},
                                       {"energy ledger error [%]", &PouredBed::ledger},
                                       {"CPU [s]", &PouredBed::cpu_s}};
 
-Mean over_seeds(const std::vector<PouredBed>& beds, double PouredBed::*value) {
-  std::vector<double> values;
-  for (const PouredBed& b : beds) values.push_back(b.*value);
-  return mean_of(values);
-}
-
 /// Mean difference from the first change, seed by seed: the same feed in both, so much of the scatter falls
 /// out.
 Mean paired(const std::vector<PouredBed>& beds, const std::vector<PouredBed>& base,

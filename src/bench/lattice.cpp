@@ -14,11 +14,7 @@ struct Beds {
   double pitch = 0;  // of the lattice [m]; 0: no lattice
   std::vector<PouredBed> beds;
 
-  Mean mean(double PouredBed::*value) const {
-    std::vector<double> values;
-    for (const PouredBed& b : beds) values.push_back(b.*value);
-    return mean_of(values);
-  }
+  Mean mean(double PouredBed::*value) const { return over_seeds(beds, value); }
   double cpu_s() const { return mean(&PouredBed::cpu_s).value; }
 
   /// Mean of all seeds, bin by bin. A bin that any of them has nothing in is NaN.

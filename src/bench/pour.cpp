@@ -20,6 +20,12 @@ double mean_height(const PackedBed& bed) {
   return bed.pellets.empty() ? 0 : sum / static_cast<double>(bed.pellets.size());
 }
 
+Mean over_seeds(const std::vector<PouredBed>& beds, double PouredBed::*value) {
+  std::vector<double> values;
+  for (const PouredBed& b : beds) values.push_back(b.*value);
+  return mean_of(values);
+}
+
 PouredBed pour(const Scene& scene) {
   const PackResult result = pack(scene, {});
   AnalysisWish wish = scene.analysis;

@@ -6,6 +6,7 @@
 #include "bed/packed_bed.hpp"
 #include "bed/scene.hpp"
 #include "bench/bench.hpp"
+#include "bench/statistics.hpp"
 
 namespace packbed::bench {
 
@@ -27,6 +28,8 @@ struct PouredBed {
 Scene poured_scene(const Options& options, std::uint64_t seed, const std::vector<std::string>& sets = {});
 /// Packs it and measures the bed without voxels.
 PouredBed pour(const Scene& scene);
+
+Mean over_seeds(const std::vector<PouredBed>& beds, double PouredBed::*value);
 
 double mean_height(const PackedBed& bed);  ///< of the centres of mass [m]
 

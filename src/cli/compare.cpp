@@ -47,11 +47,11 @@ Compared look_at(const std::string& input, const AnalysisWish& wish) {
 AnalysisWish wish_of(const CompareOptions& options) {
   AnalysisWish wish;
   const std::string& first = options.inputs.front();
-  if (!holds_grid(first)) try {
-      const std::string text = read_bed(first).provenance.case_text;
-      if (!text.empty()) wish = read_case_text(text, first).analysis;
-    } catch (const InputError&) {  // its CAD files are not here any more: as a case is by itself
-    }
+  const std::string text = holds_grid(first) ? "" : read_bed(first).provenance.case_text;
+  try {
+    if (!text.empty()) wish = read_analysis(text, first);
+  } catch (const InputError&) {  // of a version whose keys are not today's: as a case is by itself
+  }
   if (options.pitch) wish.voxel = parse_quantity(*options.pitch, Dimension::length, "--pitch");
   if (options.from) wish.from_diameters = *options.from;
   if (options.to) wish.to_diameters = *options.to;

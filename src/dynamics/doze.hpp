@@ -3,10 +3,10 @@
 //
 // Falling asleep: over one watch a body has moved and turned by less than a small fraction of its size.
 // Waking: a shadow of the body is integrated instead of the body. The change of the net force since it fell
-// asleep drives an oscillator of the period and damping of a contact; the shadow's displacement is how far
-// the body would have gone. A short knock from a far impact moves it little, a lasting push moves it far.
-// What hangs on after its support has gone moves little in the shadow, whose contact is always there:
-// packers ask for it apart.
+// asleep drives an oscillator of the period and damping of a contact; how far that is off, with what its
+// velocity still adds, is how far the body would go. A short knock from a far impact moves it little, a
+// lasting push moves it far. What hangs on after its support has gone moves little in the shadow, whose
+// contact is always there: packers ask for it apart.
 #include "dynamics/bodies.hpp"
 
 namespace packbed {

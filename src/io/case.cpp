@@ -135,6 +135,10 @@ Scene read_case_text(const std::string& text, const std::string& case_file,
   return scene_of(record_of(text, case_file, sets, seed), case_file);
 }
 
+AnalysisWish read_analysis(const std::string& text, const std::string& case_file) {
+  return record_of(text, case_file, {}, {}).analysis;
+}
+
 std::string case_with_defaults(const std::string& path, const std::vector<std::string>& sets,
                                std::optional<std::uint64_t> seed) {
   return write_record(record_of(read_text(path, path), path, sets, seed));

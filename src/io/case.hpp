@@ -21,6 +21,9 @@ Scene read_case(const std::string& path, const std::vector<std::string>& sets = 
 Scene read_case_text(const std::string& text, const std::string& case_file,
                      const std::vector<std::string>& sets = {}, std::optional<std::uint64_t> seed = {});
 
+/// What the text says of the analysis; opens no CAD file.
+AnalysisWish read_analysis(const std::string& text, const std::string& case_file);
+
 /// The case as TOML with every key that applies, its unit, default and range in comments; opens no CAD file.
 std::string case_with_defaults(const std::string& path, const std::vector<std::string>& sets = {},
                                std::optional<std::uint64_t> seed = {});

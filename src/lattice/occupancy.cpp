@@ -50,10 +50,9 @@ std::uint64_t Occupancy::taken_from(int x, int y, int z) const {
   const int words = static_cast<int>(slice_ / column_);
   if (y < 0 || y >= frame_.size[1] + 2 * kMargin || z < 0 || z >= frame_.size[2] + 2 * kMargin)
     return ~std::uint64_t{0};
-  const int word = x >= 0 ? x / 64 : -((63 - x) / 64), shift = x - 64 * word;
   const std::uint64_t* row = bits_.data() + size(z) * slice_ + size(y);
-  const auto at = [&](int w) { return w < 0 || w >= words ? ~std::uint64_t{0} : row[size(w) * column_]; };
-  return (at(word) >> shift) | ((at(word + 1) << 1) << (63 - shift));
+  return bits_from(x,
+                   [&](int w) { return w < 0 || w >= words ? ~std::uint64_t{0} : row[size(w) * column_]; });
 }
 
 bool Occupancy::inside(const Stamp& stamp, const Cell& at) const {

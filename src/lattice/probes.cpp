@@ -15,12 +15,12 @@ constexpr Ring kRings[] = {{1, 1, 28},  {1, -1, 28},  {1, 0, 12},       {1, 0.5,
 }  // namespace
 
 Probes::Probes(const Shape& shape, double pitch)
-    : radius_(shape.radius / pitch), half_height_(shape.half_height / pitch) {
-  const bool tube = shape.kind == ShapeClass::tube;
-  if (shape.kind != ShapeClass::cylinder && !tube) return;
-  if (tube) bore_ = shape.inner_radius / pitch;
+    : radius_(shape.radius / pitch),
+      bore_(shape.inner_radius / pitch),
+      half_height_(shape.half_height / pitch) {
+  if (shape.kind != ShapeClass::cylinder && shape.kind != ShapeClass::tube) return;
   for (const Ring& ring : kRings) {
-    if (ring.in_bore && !tube) continue;
+    if (ring.in_bore && !(bore_ > 0)) continue;
     for (int k = 0; k < ring.count; ++k) {
       const double phi =
           2 * kPi * (k * 5 % ring.count + 0.5) / ring.count;  // neighbours in the list lie apart

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
-
-#include "math/simd.hpp"
 
 namespace packbed {
 namespace {
@@ -251,7 +248,7 @@ const BitBlock& Rasteriser::mesh(const TriangleMesh& surface, const Pose& pose, 
 }
 
 const BitBlock& Rasteriser::body(const Shape& shape, const Pose& pose, double scale, int z_begin, int z_end) {
-  if (seen_as_mesh(shape.kind) && shape.kind != ShapeClass::tube)
+  if (shape.kind == ShapeClass::mesh || shape.kind == ShapeClass::convex)
     return mesh(shape.surface, pose, scale, z_begin, z_end);
   const Vec3 centre = (pose.position - frame_.origin) / frame_.pitch - Vec3::Constant(0.5);
   const double size = scale / frame_.pitch, radius = shape.radius * size, half = shape.half_height * size;
@@ -262,7 +259,7 @@ const BitBlock& Rasteriser::body(const Shape& shape, const Pose& pose, double sc
   const Vec3 a = pose.rotation * Vec3::UnitZ();
   const Vec3 reach = reach_of_cylinder(a, radius, half);
   if (set_box(centre - reach, centre + reach, z_begin, z_end))
-    cylinder(centre, a, radius, shape.kind == ShapeClass::tube ? size * shape.inner_radius : 0, half);
+    cylinder(centre, a, radius, size * shape.inner_radius, half);
   return block_;
 }
 

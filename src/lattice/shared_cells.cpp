@@ -7,22 +7,6 @@
 namespace packbed {
 namespace {
 
-/// Bits of a stamp from bit x of row (y, z) of its box; empty outside.
-struct StampBits {
-  const Stamp* stamp;
-  std::uint64_t operator()(int x, int y, int z) const {
-    const Stamp& s = *stamp;
-    if (y < 0 || z < 0 || y >= s.size[1] || z >= s.size[2]) return 0;
-    const int word = x >= 0 ? x / 64 : -((63 - x) / 64), shift = x - 64 * word;
-    const std::uint64_t* row =
-        s.data() + static_cast<std::size_t>(z) * s.slice() + static_cast<std::size_t>(y);
-    const auto at = [&](int w) {
-      return w < 0 || w >= s.words ? std::uint64_t{0} : row[static_cast<std::size_t>(w) * s.column()];
-    };
-    return (at(word) >> shift) | ((at(word + 1) << 1) << (63 - shift));
-  }
-};
-
 /// Adds one word of shared cells; a and b give bits of either body round it, (x, y, z) counted from a's box.
 template <class A, class B>
 void add_word(std::uint64_t both, int x, int y, int z, const Cell& low, const A& a, const B& b,
@@ -113,8 +97,10 @@ SharedCells shared_cells(const Stamp& a, const Stamp& b, const Cell& apart) {
     high[d] = std::min(a.size[d], shift[d] + b.size[d]) - 1;
     if (low[d] >= high[d]) return s;
   }
-  const StampBits bits_a{&a}, own_b{&b};
-  const auto bits_b = [&](int x, int y, int z) { return own_b(x - shift[0], y - shift[1], z - shift[2]); };
+  const auto bits_a = [&](int x, int y, int z) { return box_bits(a, x, y, z); };
+  const auto bits_b = [&](int x, int y, int z) {
+    return box_bits(b, x - shift[0], y - shift[1], z - shift[2]);
+  };
   for (int z = low[2]; z < high[2]; ++z)
     for (int w = 0; w < a.words; ++w) {
       const std::uint64_t* row =
@@ -130,7 +116,7 @@ SharedCells shared_cells(const Stamp& a, const Stamp& b, const Cell& apart) {
 
 SharedCells shared_cells(const Stamp& a, const Occupancy& lattice, const Cell& at, int z_begin, int z_end) {
   SharedCells s;
-  const StampBits bits_a{&a};
+  const auto bits_a = [&](int x, int y, int z) { return box_bits(a, x, y, z); };
   const Cell base{at[0] + a.low[0], at[1] + a.low[1], at[2] + a.low[2]};
   const auto bits_b = [&](int x, int y, int z) {
     return lattice.taken_from(base[0] + x, base[1] + y, base[2] + z);

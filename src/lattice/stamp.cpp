@@ -137,14 +137,6 @@ PACKBED_WIDE std::int64_t count_bits(const std::uint64_t* words, std::size_t n) 
   return count;
 }
 
-/// Word `w` of a row that starts at bit `first` of the block's row.
-std::uint64_t word_at(const std::uint64_t* row, int words, int first, int w) {
-  const int bit = first + 64 * w;  // >= -1: the border reaches one bit before the row
-  const auto at = [&](int i) { return i >= 0 && i < words ? row[i] : 0; };
-  const int word = bit >= 0 ? bit / 64 : -1, shift = bit - 64 * word;
-  return (at(word) >> shift) | ((at(word + 1) << 1) << (63 - shift));
-}
-
 struct Box {
   Extent x, y, z;
 };
@@ -166,10 +158,6 @@ Box box_of(const BitBlock& block) {
     }
   return box;
 }
-
-}  // namespace
-
-namespace {
 
 /// An empty stamp with the cells of `box` in it and an empty border round it.
 Stamp stamp_for(const Box& box) {
@@ -269,8 +257,10 @@ Stamp stamp_of(const BitBlock& block, int middle) {
       if (block.words == 1 && stamp.words == 1)
         move_rows(from, box.y.size(), box.x.low - 1, to);
       else
-        for (int j = 0; j < box.y.size(); ++j, from += block.words)
-          to[j] = word_at(from, block.words, box.x.low - 1, w);
+        for (int j = 0; j < box.y.size();
+             ++j, from += block.words)  // the border reaches a bit before the row
+          to[j] = bits_from(box.x.low - 1 + 64 * w,
+                            [&](int i) { return i >= 0 && i < block.words ? from[i] : std::uint64_t{0}; });
     }
   set_ranges(stamp);
   stamp.low[0] += 64 * block.word - middle;
@@ -318,7 +308,7 @@ Stamp StampMaker::make_cylinder(const Shape& shape, double scale, const Quat& ro
   whole_numbers(phase.z() - reach.z(), phase.z() + reach.z(), rows_.box.z, rows_.box.nz);
   const Vec3 centre = phase - Vec3(x_first, 0, 0);
   cylinder_intervals(centre, axis, radius, half, length, rows_);
-  if (shape.kind == ShapeClass::cylinder) return stamp_of(rows_, nullptr, x_first);
+  if (!(shape.inner_radius > 0)) return stamp_of(rows_, nullptr, x_first);
   bore_.box = rows_.box;
   cylinder_intervals(centre, axis, scale * shape.inner_radius, half, length, bore_);
   return stamp_of(rows_, &bore_, x_first);

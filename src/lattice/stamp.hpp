@@ -90,17 +90,18 @@ inline bool has_cell(const Stamp& stamp, const Cell& cell) {
   return (stamp.data()[at[2] * stamp.slice() + at[0] / 64 * stamp.column() + at[1]] >> (at[0] % 64)) & 1U;
 }
 
-/// Bits of the 64 cells from (x, y, z) along x, counted from the pellet's own; none outside of the stamp.
-inline std::uint64_t cells_from(const Stamp& stamp, int x, int y, int z) {
-  x -= stamp.low[0], y -= stamp.low[1], z -= stamp.low[2];
+/// Bits of the 64 cells from (x, y, z) along x, counted from the corner of the box; none outside of it.
+inline std::uint64_t box_bits(const Stamp& stamp, int x, int y, int z) {
   if (y < 0 || y >= stamp.size[1] || z < 0 || z >= stamp.size[2]) return 0;
   const std::uint64_t* row =
       stamp.data() + static_cast<std::size_t>(z) * stamp.slice() + static_cast<std::size_t>(y);
-  const auto word = [&](int w) {
-    return w < 0 || w >= stamp.words ? 0 : row[static_cast<std::size_t>(w) * stamp.column()];
-  };
-  const int w = x >= 0 ? x / 64 : -((63 - x) / 64), shift = x - 64 * w;
-  return (word(w) >> shift) | ((word(w + 1) << 1) << (63 - shift));
+  return bits_from(x, [&](int w) {
+    return w < 0 || w >= stamp.words ? std::uint64_t{0} : row[static_cast<std::size_t>(w) * stamp.column()];
+  });
+}
+/// The same, counted from the pellet's own cell.
+inline std::uint64_t cells_from(const Stamp& stamp, int x, int y, int z) {
+  return box_bits(stamp, x - stamp.low[0], y - stamp.low[1], z - stamp.low[2]);
 }
 
 /// Calls visit(x, y, z) for every solid cell, counted from the pellet's cell, in the order of the bits.

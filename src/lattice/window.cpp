@@ -34,6 +34,14 @@ inline void seen(const Window& w, const Column& c, int y, Words8& out) {
   out |= (high << 1) << (63 - w.shift);
 }
 
+/// Of these, the stamp's.
+inline void shared(const Window& w, const Column& c, int y, Words8& out) {
+  Words8 stamp;
+  load(c.stamp + y, stamp);
+  seen(w, c, y, out);
+  out &= stamp;
+}
+
 /// Stamp moved by one cell, without the stamp, eight rows from y of one column.
 class Ahead {
  public:
@@ -97,10 +105,9 @@ PACKBED_WIDE bool window_hits(const Window& w) {
     for (int x = 0; x < w.words; ++x) {
       const Column c(w, x, z);
       for (int y = w.ranges[z].first; y < w.ranges[z].end(); y += kLane) {
-        Words8 taken, stamp;
-        seen(w, c, y, taken);
-        load(c.stamp + y, stamp);
-        found |= taken & stamp;
+        Words8 both;
+        shared(w, c, y, both);
+        found |= both;
       }
     }
     if ((z & kAsk) == 0 && any_of(found)) return true;
@@ -133,11 +140,9 @@ PACKBED_WIDE std::size_t window_list(const Window& w, HitRow* out) {
     for (int x = 0; x < w.words; ++x) {
       const Column c(w, x, z);
       for (int y = w.ranges[z].first; y < w.ranges[z].end(); y += kLane) {
-        Words8 taken, stamp;
-        seen(w, c, y, taken);
-        load(c.stamp + y, stamp);
-        taken &= stamp;
-        if (any_of(taken)) n += append(taken, x, y, z, out + n);
+        Words8 both;
+        shared(w, c, y, both);
+        if (any_of(both)) n += append(both, x, y, z, out + n);
       }
     }
   return n;
@@ -163,11 +168,9 @@ std::int64_t window_count(const Window& w) {
     for (int x = 0; x < w.words; ++x) {
       const Column c(w, x, z);
       for (int y = w.ranges[z].first; y < w.ranges[z].end(); y += kLane) {
-        Words8 taken, stamp;
-        seen(w, c, y, taken);
-        load(c.stamp + y, stamp);
-        taken &= stamp;
-        for (int k = 0; k < kLane; ++k) count += std::popcount(taken[k]);
+        Words8 both;
+        shared(w, c, y, both);
+        for (int k = 0; k < kLane; ++k) count += std::popcount(both[k]);
       }
     }
   return count;

@@ -8,6 +8,13 @@
 
 namespace packbed {
 
+/// The 64 bits from bit x, negative or not, of a row whose words word(w) gives, also beyond its ends.
+template <class Word>
+std::uint64_t bits_from(int x, const Word& word) {
+  const int w = x >= 0 ? x / 64 : -((63 - x) / 64), shift = x - 64 * w;
+  return (word(w) >> shift) | ((word(w + 1) << 1) << (63 - shift));
+}
+
 /// Rows of a slice, by eights, all of them rows of the box.
 struct RowRange {
   std::uint16_t first = 0, eights = 0;

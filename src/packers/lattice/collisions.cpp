@@ -37,6 +37,20 @@ PACKBED_WIDE void add_directions(const float* x, const float* y, const float* z,
   }
 }
 
+/// Sum of the unit vectors from `centre` to all cells; nothing of a cell at the centre. Pads the columns.
+Vec3 sum_of_directions(CellColumns& cells, const Vec3& centre) {
+  const float c[3] = {static_cast<float>(centre.x()), static_cast<float>(centre.y()),
+                      static_cast<float>(centre.z())};
+  while (cells.x.size() % kLane != 0) {
+    cells.x.push_back(c[0]);
+    cells.y.push_back(c[1]);
+    cells.z.push_back(c[2]);
+  }
+  float sum[3] = {0, 0, 0};
+  add_directions(cells.x.data(), cells.y.data(), cells.z.data(), cells.x.size(), c, sum);
+  return {sum[0], sum[1], sum[2]};
+}
+
 Push push_of(CellColumns& cells, std::size_t pellet, const Vec3& centre, const Vec3& face) {
   Push p;
   p.pellet = static_cast<std::uint32_t>(pellet);
@@ -66,19 +80,6 @@ void CellColumns::add(std::uint64_t bits, int x0, int y0, int z0) {
     sum[1] += y0;
     sum[2] += z0;
   }
-}
-
-Vec3 sum_of_directions(CellColumns& cells, const Vec3& centre) {
-  const float c[3] = {static_cast<float>(centre.x()), static_cast<float>(centre.y()),
-                      static_cast<float>(centre.z())};
-  while (cells.x.size() % kLane != 0) {
-    cells.x.push_back(c[0]);
-    cells.y.push_back(c[1]);
-    cells.z.push_back(c[2]);
-  }
-  float sum[3] = {0, 0, 0};
-  add_directions(cells.x.data(), cells.y.data(), cells.z.data(), cells.x.size(), c, sum);
-  return {sum[0], sum[1], sum[2]};
 }
 
 void Collisions::find_others(const State& state, std::size_t i, const Tried& tried) {

@@ -23,9 +23,6 @@ struct CellColumns {
   void add(std::uint64_t bits, int x0, int y0, int z0);
 };
 
-/// Sum of the unit vectors from `centre` to all cells; nothing of a cell at the centre. Pads the columns.
-Vec3 sum_of_directions(CellColumns& cells, const Vec3& centre);
-
 /// What was tried with a pellet and found taken.
 struct Tried {
   const Stamp& stamp;

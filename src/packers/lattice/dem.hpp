@@ -37,6 +37,10 @@ struct DemModel {
 
 inline constexpr std::uint32_t kFloor = 0xfffffffe, kSide = 0xffffffff;  // stand for b in a touch
 
+inline bool is_wall(std::uint32_t b) {
+  return b >= kFloor;
+}
+
 /// Two pellets, or a pellet and the container, that may touch. The spring lives as long as the pair is
 /// listed.
 struct Touch {

@@ -81,9 +81,9 @@ void dem_rest(const DemModel& model, DemState& state, const Feeder& feeder) {
 void dem_shake(const DemModel& model, DemState& state) {
   if (!state.at_rest) return;
   const auto push = next_shake(*model.base.scene, state.shake, state.time, pellets_of(state));
-  state.last_watch = 0;
   if (!push) return;
   wake_all(state);
+  state.last_watch = 0;
   for (std::size_t i = 0; i < state.size(); ++i)
     if (state.bodies.motion[i] != Motion::fixed) state.bodies.velocity[i] += *push;
   state.at_rest = 0;

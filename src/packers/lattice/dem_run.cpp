@@ -136,7 +136,7 @@ PackedBed bed_of(const DemModel& model, const DemState& state) {
   bed.pellets = pellets_of(state);
   for (const Touch& t : state.touches)
     if (t.depth > 0)
-      bed.contacts.push_back({t.a, t.b >= kFloor ? kContainer : t.b, t.point, t.force, t.depth});
+      bed.contacts.push_back({t.a, is_wall(t.b) ? kContainer : t.b, t.point, t.force, t.depth});
   return bed;
 }
 

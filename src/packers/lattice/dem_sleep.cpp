@@ -8,10 +8,6 @@
 namespace packbed::lattice {
 namespace {
 
-bool is_pellet(std::uint32_t b) {
-  return b < kFloor;
-}
-
 double size_of(const DemModel& model, const DemState& state, std::size_t i) {
   const Bodies& b = state.bodies;
   return b.scale[i] * model.base.kind(b.kind[i]).shape->equivalent_diameter();
@@ -29,7 +25,7 @@ std::vector<double> lost_support(const DemState& state) {
   for (const Touch& t : state.touches) {
     const double less = std::max(0.0, t.held - t.force.norm());
     lost[t.a] += less;
-    if (is_pellet(t.b)) lost[t.b] += less;
+    if (!is_wall(t.b)) lost[t.b] += less;
   }
   return lost;
 }
@@ -40,7 +36,7 @@ void let_sleep(const DemModel& model, DemState& state) {
   for (const Touch& t : state.touches)
     if (t.depth > 0) {
       touches[t.a] = 1;
-      if (is_pellet(t.b)) touches[t.b] = 1;
+      if (!is_wall(t.b)) touches[t.b] = 1;
     }
   std::vector<std::uint8_t> falls(state.size());
   for (const std::uint32_t i : state.awake) {
@@ -57,7 +53,7 @@ void let_sleep(const DemModel& model, DemState& state) {
     state.stale = 1;
   }
   for (Touch& t : state.touches)
-    if (falls[t.a] || (is_pellet(t.b) && falls[t.b])) t.held = t.force.norm();
+    if (falls[t.a] || (!is_wall(t.b) && falls[t.b])) t.held = t.force.norm();
 }
 
 }  // namespace
@@ -66,7 +62,7 @@ void add_forces(const Touch& t, const std::vector<Vec3>& position, std::vector<V
                 std::vector<Vec3>& torque) {
   force[t.a] += t.force;
   torque[t.a] += (t.point - position[t.a]).cross(t.force) + t.couple;
-  if (!is_pellet(t.b)) return;
+  if (is_wall(t.b)) return;
   force[t.b] -= t.force;
   torque[t.b] -= (t.point - position[t.b]).cross(t.force) + t.couple;
 }
@@ -84,7 +80,7 @@ void find_active(DemState& state) {
     if (b.motion[i] == Motion::awake) state.awake.push_back(static_cast<std::uint32_t>(i));
   for (std::size_t k = 0; k < state.touches.size(); ++k) {
     const Touch& t = state.touches[k];
-    const Motion a = b.motion[t.a], other = is_pellet(t.b) ? b.motion[t.b] : Motion::fixed;
+    const Motion a = b.motion[t.a], other = is_wall(t.b) ? Motion::fixed : b.motion[t.b];
     if (a == Motion::awake || other == Motion::awake) {
       state.active.push_back(static_cast<std::uint32_t>(k));
       if (a == Motion::asleep) state.shore.push_back(t.a);

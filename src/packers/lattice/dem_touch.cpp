@@ -15,10 +15,6 @@ namespace {
 /// should be (0.54 against 0.50 for 100 cylinders of 14 x 14 x 9 cells; the mesh packer has 0.505).
 constexpr double kFade = 0.998;
 
-bool is_wall(const Touch& t) {
-  return t.b >= kFloor;
-}
-
 /// Where the normal on a is looked for before cells tell: from b's centre, or from the wall.
 Vec3 first_guess(const DemState& state, const Touch& t) {
   const Vec3& x = state.bodies.position[t.a];
@@ -34,7 +30,7 @@ void look_at(const DemState& state, Touch& t, const SharedCells& cells) {
 
 /// Counts the shared cells when a stamp has changed; true then.
 bool count_cells(const DemModel& model, const DemState& state, Touch& t) {
-  const std::uint32_t version_b = is_wall(t) ? 1 : state.version[t.b];
+  const std::uint32_t version_b = is_wall(t.b) ? 1 : state.version[t.b];
   if (t.seen_a == state.version[t.a] && t.seen_b == version_b) return false;
   t.seen_a = state.version[t.a];
   t.seen_b = version_b;
@@ -47,7 +43,7 @@ bool count_cells(const DemModel& model, const DemState& state, Touch& t) {
     at[d] += t.lead[d];
   }
   const Stamp& a = state.stamp[t.a];
-  if (!is_wall(t)) {
+  if (!is_wall(t.b)) {
     const Cell& b = state.cell[t.b];
     look_at(state, t, shared_cells(a, state.stamp[t.b], {b[0] - at[0], b[1] - at[1], b[2] - at[2]}));
     return true;
@@ -88,7 +84,7 @@ bool find_place(const DemModel& model, const DemState& state, bool counted, Touc
   place.arm_a = t.point - b.position[t.a];
   place.area = std::max(patch.area, 1.0) * pitch * pitch;
   Vec3 way = way_since(state, t.a, place.arm_a);
-  if (!is_wall(t)) {
+  if (!is_wall(t.b)) {
     place.arm_b = t.point - b.position[t.b];
     way -= way_since(state, t.b, place.arm_b);
   }
@@ -109,7 +105,7 @@ Moving relative(const DemState& state, const Touch& t, const Place& place) {
   const Bodies& b = state.bodies;
   Moving m{b.velocity[t.a] + b.spin[t.a].cross(place.arm_a), b.spin[t.a], 0};
   double inverse = b.inverse_mass[t.a];
-  if (!is_wall(t)) {
+  if (!is_wall(t.b)) {
     m.velocity -= b.velocity[t.b] + b.spin[t.b].cross(place.arm_b);
     m.spin -= b.spin[t.b];
     inverse += b.inverse_mass[t.b];
@@ -139,7 +135,7 @@ void push(const DemState& state, const DemLaw& law, double step, const Place& pl
   t.force = normal * t.normal + rub;
   const double gyration = place.area / (4 * kPi);
   Vec3 tilt = state.turn[t.a];
-  if (!is_wall(t)) tilt -= state.turn[t.b];
+  if (!is_wall(t.b)) tilt -= state.turn[t.b];
   tilt -= tilt.dot(t.normal) * t.normal;
   t.couple = -gyration * (law.stiffness * tilt + damping * m.spin);
   // a touch that does not pull cannot hold a couple larger than its force at the patch's rim
@@ -159,7 +155,7 @@ void dem_touch(const DemModel& model, DemState& state) {
       t.force = t.couple = Vec3::Zero();
       Place place;
       if (find_place(model, state, counted, t, place))
-        push(state, is_wall(t) ? model.wall : model.pellet, model.step, place, t);
+        push(state, is_wall(t.b) ? model.wall : model.pellet, model.step, place, t);
     }
   });
   Bodies& b = state.bodies;
