@@ -48,7 +48,7 @@ struct FieldAccuracy {
   double memory_MB = 256;  // largest depth field
 };
 
-enum class FeedKind { layers, pour, placed, lattice };
+enum class FeedKind { layers, pour, placed, lattice, scatter };
 
 /// A pellet that the case puts where it wants it.
 struct PlacedPellet {
@@ -72,8 +72,10 @@ struct Feed {
   bool above_bed = false;        // drop_height counts from the bed's surface instead of the floor
   double radius =
       0;  // of the circle that centres enter in [m]; 0: as wide as the container lets every rotation fit
-  double speed = 0;    // of a uniformly random direction at entry [m/s]; lattice: largest of each component
-  double spacing = 0;  // lattice: between neighbouring sites [m]; 0: across the largest pellet
+  double speed =
+      0;  // of a uniformly random direction at entry [m/s]; lattice, scatter: largest of each component
+  double spacing = 0;                // lattice: between neighbouring sites [m]; 0: across the largest pellet
+  double cloud_density = 0.2;        // scatter: share of the cloud that bounding spheres fill
   std::vector<PlacedPellet> placed;  // FeedKind::placed only
 };
 

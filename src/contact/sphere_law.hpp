@@ -32,6 +32,12 @@ struct SphereLaw {
   double rolling_friction = 0;        // [-]
 };
 
+/// What a law has, known when the loops are compiled: what it has not costs nothing.
+template <bool Hertz, bool Friction, bool Rolling>
+struct SphereForm {
+  static constexpr bool hertz = Hertz, friction = Friction, rolling = Rolling;
+};
+
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are only passed between functions that are inlined
@@ -74,8 +80,9 @@ struct SphereForce {
 struct SphereElastic {
   Four slope, force;
 };
-PACKBED_INLINE SphereElastic elastic_of(const SphereLaw& law, const Four& radius, const Four& delta) {
-  if (!law.hertz) {
+PACKBED_INLINE SphereElastic elastic_of(const SphereLaw& law, bool hertz, const Four& radius,
+                                        const Four& delta) {
+  if (!hertz) {
     const Four k = law.stiffness + law.modulus * radius;
     return {k, k * delta};
   }
@@ -99,9 +106,9 @@ PACKBED_INLINE FourVec stretch_on(const SphereTouch& t, double step, const FourV
                                   const Four& stiffness, const Four& dashpot, const Four& limit, Springs& s,
                                   SphereTally& tally) {
   const Four none{};
-  // mirrored twice, the stretch has turned with the normal and kept its length
-  FourVec before = s.stretch - (2.0 * dot(s.stretch, t.normal_mid)) * t.normal_mid;
-  before = before - dot(before, t.normal) * t.normal;
+  // mirrored twice, at the middle normal and (below) at the end's, the stretch has turned with the normal and
+  // kept its length
+  const FourVec before = s.stretch - (2.0 * dot(s.stretch, t.normal_mid)) * t.normal_mid;
   FourVec now = before + step * rate;
   now = now - dot(now, t.normal) * t.normal;
   FourVec force = FourVec{} - (stiffness * now + dashpot * rate);
@@ -112,11 +119,15 @@ PACKBED_INLINE FourVec stretch_on(const SphereTouch& t, double step, const FourV
     now = choose(slips, (-1.0 / (slips ? stiffness : four(1.0))) * force, now);
   }
   const Four lost_before = stored_in(s);  // if it has come apart
-  const FourVec mean = 0.5 * (s.stiffness * before + stiffness * now);
-  const Four work = step * dot(mean, rate) + lost_before;
+  // what was put in, by the mean of the forces at both ends, less what the spring has gained
+  Four lost = 0.5 * (s.stiffness - stiffness) * dot(before, now);
+  if (any(slips)) {  // the spring has not gone along with the surfaces
+    const FourVec mean = 0.5 * (s.stiffness * before + stiffness * now);
+    lost = slips ? step * dot(mean, rate) + lost_before - 0.5 * stiffness * dot(now, now) : lost;
+  }
   s.stretch = choose(t.touches, now, FourVec{});
   s.stiffness = t.touches ? stiffness : none;
-  tally.rubbed += t.touches ? work - stored_in(s) : lost_before;
+  tally.rubbed += t.touches ? lost : lost_before;
   tally.damped += (t.touches & ~slips) ? step * dashpot * dot(rate, rate) : none;
   return choose(t.touches, force, FourVec{});
 }
@@ -130,14 +141,15 @@ struct SphereState {
 };
 
 /// Advances the springs by one step and gives the forces; zero where nothing touches.
-PACKBED_INLINE SphereForce resolve(const SphereLaw& law, const SphereTouch& t, double step,
+template <class Form>
+PACKBED_INLINE SphereForce resolve(Form, const SphereLaw& law, const SphereTouch& t, double step,
                                    SphereState& state, SphereTally& tally) {
   const Four none{};
   const Four delta = t.touches ? t.delta : none;
-  const SphereElastic e = elastic_of(law, t.radius, delta);
+  const SphereElastic e = elastic_of(law, Form::hertz, t.radius, delta);
   Four dashpot = none;
   if (law.damping_ratio > 0) {
-    const double zeta = law.damping_ratio * (law.hertz ? 0.91287092917527686 : 1.0);  // sqrt(5/6)
+    const double zeta = law.damping_ratio * (Form::hertz ? 0.91287092917527686 : 1.0);  // sqrt(5/6)
     dashpot = 2.0 * zeta * root(e.slope * t.mass);
   }
   const Four tangential_dashpot = law.tangential_damping * dashpot + law.tangential_dissipation * t.mass;
@@ -153,7 +165,7 @@ PACKBED_INLINE SphereForce resolve(const SphereLaw& law, const SphereTouch& t, d
   const FourFlags parts = ~t.touches & (drag_before < 0.0);
   if (any(parts)) {  // held back until the end, the spring has given its energy to the dashpot
     const Four last = parts ? larger(none, t.delta - step * closing) : none;
-    const Four force = elastic_of(law, t.radius, last).force;
+    const Four force = elastic_of(law, Form::hertz, t.radius, last).force;
     tally.damped += parts ? smaller(force, -drag_before) * elastic_share(law) * last : none;
   }
   state.closing = closing;
@@ -161,7 +173,7 @@ PACKBED_INLINE SphereForce resolve(const SphereLaw& law, const SphereTouch& t, d
 
   SphereForce out;
   out.force = push * t.normal;
-  if (law.friction > 0) {
+  if constexpr (Form::friction) {
     FourVec slide = t.mid - cross(t.turning, t.normal_mid);
     slide = slide - dot(slide, t.normal_mid) * t.normal_mid;
     const Four stiffness = law.tangential_share * e.slope;
@@ -169,17 +181,19 @@ PACKBED_INLINE SphereForce resolve(const SphereLaw& law, const SphereTouch& t, d
         stretch_on(t, step, slide, stiffness, tangential_dashpot, law.friction * push, state.slip, tally);
     out.force = out.force + friction;
     out.moment = cross(t.normal, friction);
-    if (law.rolling_friction > 0) {
+    if constexpr (Form::rolling) {
       const FourVec rate = t.rolling - dot(t.rolling, t.normal_mid) * t.normal_mid;
       const Four arm2 = t.radius * t.radius;
       out.rolling = stretch_on(t, step, rate, stiffness * arm2, tangential_dashpot * arm2,
                                law.rolling_friction * t.radius * push, state.roll, tally);
     }
   }
-  if (any(delta > tally.deepest * t.thickness)) tally.deepest = larger(tally.deepest, delta / t.thickness);
   tally.touches += t.touches ? four(1.0) : none;
-  tally.deep += delta > 0.05 * t.thickness ? four(1.0) : none;
-  tally.very_deep += delta > 0.1 * t.thickness ? four(1.0) : none;
+  if (any(delta > smaller(tally.deepest, four(0.05)) * t.thickness)) {
+    tally.deepest = larger(tally.deepest, delta / t.thickness);
+    tally.deep += delta > 0.05 * t.thickness ? four(1.0) : none;
+    tally.very_deep += delta > 0.1 * t.thickness ? four(1.0) : none;
+  }
   return out;
 }
 

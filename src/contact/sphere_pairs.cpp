@@ -1,5 +1,7 @@
 #include "contact/sphere_pairs.hpp"
 
+#include <type_traits>
+
 #include "math/simd.hpp"
 
 #if defined(__GNUC__) && !defined(__clang__)
@@ -14,7 +16,7 @@ namespace {
 using Lane = std::array<std::uint32_t, 4>;
 
 PACKBED_INLINE FourQuads gather(const Quad* from, const Lane& at) {
-  return turned(four(from[at[0]]), four(from[at[1]]), four(from[at[2]]), four(from[at[3]]));
+  return turned(from[at[0]], from[at[1]], from[at[2]], from[at[3]]);
 }
 PACKBED_INLINE FourVec vec(const FourQuads& q) {
   return {q.x, q.y, q.z};
@@ -60,7 +62,7 @@ PACKBED_INLINE void keep(const SphereState& now, const SphereMemory& memory, std
 PACKBED_INLINE void describe(const SphereLaw& law, const SphereTouch& t, const SphereForce& f,
                              const SphereState& now, SphereContact* contacts) {
   const Four delta = t.touches ? t.delta : Four{};
-  const Four elastic = elastic_share(law) * elastic_of(law, t.radius, delta).force * delta +
+  const Four elastic = elastic_share(law) * elastic_of(law, law.hertz, t.radius, delta).force * delta +
                        stored_in(now.slip) + stored_in(now.roll);
   const Rows row = rows(f.force, delta);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -76,15 +78,31 @@ struct WallSide {
 };
 PACKBED_INLINE WallSide side_of(const FourQuads& wall, const FourVec& x) {
   const FourVec flat = vec(wall);
+  const FourFlags round = dot(flat, flat) < 0.5;
+  if (!any(round)) return {flat, dot(flat, x) - wall.w};
   const Four across = root(x.x * x.x + x.y * x.y), inverse = 1.0 / (across > 0.0 ? across : four(1.0));
   const FourVec inwards{-x.x * inverse, -x.y * inverse, Four{}};
-  const FourFlags round = dot(flat, flat) < 0.5;
   return {choose(round, inwards, flat), round ? wall.w - across : dot(flat, x) - wall.w};
 }
 
+/// Calls run(form) with the form of the law.
+template <class Run>
+PACKBED_INLINE void by_form(const SphereLaw& law, const Run& run) {
+  const auto rest = [&](auto hertz) PACKBED_INLINE_LAMBDA {
+    constexpr bool kHertz = decltype(hertz)::value;
+    if (!(law.friction > 0))
+      run(SphereForm<kHertz, false, false>{});
+    else if (law.rolling_friction > 0)
+      run(SphereForm<kHertz, true, true>{});
+    else
+      run(SphereForm<kHertz, true, false>{});
+  };
+  law.hertz ? rest(std::true_type{}) : rest(std::false_type{});
+}
+
 /// side_at(block, x): the wall beside each of four spheres if they stood at x.
-template <class SideAt>
-PACKBED_INLINE void touch_sides(const SphereLaw& law, const SphereView& view, double step,
+template <class Form, class SideAt>
+PACKBED_INLINE void touch_sides(Form form, const SphereLaw& law, const SphereView& view, double step,
                                 std::span<const PairBlock> blocks, const SphereMemory& memory,
                                 SphereTally& tally, SphereContact* contacts, const SideAt& side_at) {
   SphereTally sums = tally;
@@ -104,30 +122,29 @@ PACKBED_INLINE void touch_sides(const SphereLaw& law, const SphereView& view, do
     t.mass = 1.0 / (velocity.w > 0.0 ? velocity.w : four(1.0));
     t.mid = vec(velocity);
     const Four lever = 1.0 - 0.5 * t.delta / place.w;
-    if (law.friction > 0) {
+    if constexpr (Form::friction) {
       t.normal_mid = side_at(k, vec(place) - (0.5 * step) * t.mid).normal;
       t.rolling = vec(gather(view.spin, a));
       t.turning = (lever * place.w) * t.rolling;
     }
     if (contacts) state.touched = FourFlags{};  // nothing has gone before
-    const SphereForce f = resolve(law, t, step, state, sums);
+    const SphereForce f = resolve(form, law, t, step, state, sums);
     if (contacts) {
       describe(law, t, f, state, contacts + 4 * k);
       continue;
     }
     keep(state, memory, k);
     add(rows(f.force, Four{}), a, view.force);
-    if (!(law.friction > 0)) continue;
+    if constexpr (!Form::friction) continue;
     FourVec twist = lever * f.moment;
-    if (law.rolling_friction > 0) twist = twist - (1.0 / place.w) * f.rolling;
+    if constexpr (Form::rolling) twist = twist - (1.0 / place.w) * f.rolling;
     add(rows(twist, Four{}), a, view.twist);
   }
   if (!contacts) tally = sums;
 }
 
-}  // namespace
-
-PACKBED_WIDE void touch_spheres(const SphereLaw& law, const SphereView& view, double step,
+template <class Form>
+PACKBED_INLINE void touch_pairs(Form form, const SphereLaw& law, const SphereView& view, double step,
                                 std::span<const PairBlock> blocks, const SphereMemory& memory,
                                 SphereTally& tally, SphereContact* contacts) {
   SphereTally sums = tally;
@@ -154,7 +171,7 @@ PACKBED_WIDE void touch_spheres(const SphereLaw& law, const SphereView& view, do
     t.mid = vec(velocity_a) - vec(velocity_b);
     // the point of contact parts the line between the centres as the radii do
     const Four lever = distance * lightness * share;
-    if (law.friction > 0) {
+    if constexpr (Form::friction) {
       // the normal half a step ago, unit to the fourth order of the angle that it has turned since
       const FourVec back = (0.5 * step * inverse) * (t.mid - dot(t.mid, t.normal) * t.normal);
       t.normal_mid = (1.0 - 0.5 * dot(back, back)) * (t.normal - back);
@@ -163,7 +180,7 @@ PACKBED_WIDE void touch_spheres(const SphereLaw& law, const SphereView& view, do
       t.rolling = spin_a - spin_b;
     }
     if (contacts) state.touched = FourFlags{};  // nothing has gone before
-    const SphereForce f = resolve(law, t, step, state, sums);
+    const SphereForce f = resolve(form, law, t, step, state, sums);
     if (contacts) {
       describe(law, t, f, state, contacts + 4 * k);
       continue;
@@ -172,9 +189,9 @@ PACKBED_WIDE void touch_spheres(const SphereLaw& law, const SphereView& view, do
     const Rows force = rows(f.force, Four{});
     add(force, a, view.force);
     take(force, to, view.force);
-    if (!(law.friction > 0)) continue;
+    if constexpr (!Form::friction) continue;
     const FourVec moment = lever * f.moment;
-    if (law.rolling_friction > 0) {
+    if constexpr (Form::rolling) {
       add(rows(moment - (1.0 / place_a.w) * f.rolling, Four{}), a, view.twist);
       add(rows(moment + (1.0 / place_b.w) * f.rolling, Four{}), to, view.twist);
     } else {
@@ -186,22 +203,36 @@ PACKBED_WIDE void touch_spheres(const SphereLaw& law, const SphereView& view, do
   if (!contacts) tally = sums;
 }
 
+}  // namespace
+
+PACKBED_WIDE void touch_spheres(const SphereLaw& law, const SphereView& view, double step,
+                                std::span<const PairBlock> blocks, const SphereMemory& memory,
+                                SphereTally& tally, SphereContact* contacts) {
+  by_form(law, [&](auto form) PACKBED_INLINE_LAMBDA {
+    touch_pairs(form, law, view, step, blocks, memory, tally, contacts);
+  });
+}
+
 PACKBED_WIDE void touch_walls(const SphereLaw& law, const SphereView& view, double step,
                               std::span<const SphereWall> walls, std::span<const PairBlock> blocks,
                               const SphereMemory& memory, SphereTally& tally, SphereContact* contacts) {
-  touch_sides(law, view, step, blocks, memory, tally, contacts,
-              [&](std::size_t k, const FourVec& x)
-                  PACKBED_INLINE_LAMBDA { return side_of(gather(walls.data(), blocks[k].b), x); });
+  const auto side_at = [&](std::size_t k, const FourVec& x)
+                           PACKBED_INLINE_LAMBDA { return side_of(gather(walls.data(), blocks[k].b), x); };
+  by_form(law, [&](auto form) PACKBED_INLINE_LAMBDA {
+    touch_sides(form, law, view, step, blocks, memory, tally, contacts, side_at);
+  });
 }
 
 PACKBED_WIDE void touch_given_walls(const SphereLaw& law, const SphereView& view, double step,
                                     std::span<const Quad> sides, std::span<const PairBlock> blocks,
                                     const SphereMemory& memory, SphereTally& tally, SphereContact* contacts) {
-  touch_sides(law, view, step, blocks, memory, tally, contacts,
-              [&](std::size_t k, const FourVec&) PACKBED_INLINE_LAMBDA {
-                const FourQuads q = gather(sides.data() + 4 * k, {0, 1, 2, 3});
-                return WallSide{vec(q), q.w};
-              });
+  const auto side_at = [&](std::size_t k, const FourVec&) PACKBED_INLINE_LAMBDA {
+    const FourQuads q = gather(sides.data() + 4 * k, {0, 1, 2, 3});
+    return WallSide{vec(q), q.w};
+  };
+  by_form(law, [&](auto form) PACKBED_INLINE_LAMBDA {
+    touch_sides(form, law, view, step, blocks, memory, tally, contacts, side_at);
+  });
 }
 
 }  // namespace packbed

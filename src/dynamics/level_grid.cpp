@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace packbed {
 
-LevelGrid::LevelGrid(const std::vector<Quad>& spheres)
-    : spheres_(spheres), level_(spheres.size()), slot_(spheres.size()) {
+LevelGrid::LevelGrid(std::vector<Quad> spheres)
+    : spheres_(std::move(spheres)), level_(spheres_.size()), slot_(spheres_.size()) {
   double smallest = 0;
-  for (const Quad& s : spheres) smallest = smallest > 0 ? std::min(smallest, s.w) : s.w;
+  for (const Quad& s : spheres_) smallest = smallest > 0 ? std::min(smallest, s.w) : s.w;
   std::vector<std::vector<std::uint32_t>> members;
-  for (std::uint32_t i = 0; i < spheres.size(); ++i) {
-    const int level = std::max(0, std::ilogb(spheres[i].w / smallest));
+  for (std::uint32_t i = 0; i < spheres_.size(); ++i) {
+    const int level = std::max(0, std::ilogb(spheres_[i].w / smallest));
     level_[i] = static_cast<std::uint8_t>(level);
     members.resize(std::max(members.size(), level_[i] + std::size_t{1}));
     members[level_[i]].push_back(i);

@@ -13,7 +13,7 @@ namespace packbed {
 class LevelGrid {
  public:
   /// x, y, z: centre, w: reach (radius and margin), all of them finite and w > 0.
-  explicit LevelGrid(const std::vector<Quad>& spheres);
+  explicit LevelGrid(std::vector<Quad> spheres);
 
   /// Calls found(j) for every j with |x_i - x_j| < w_i + w_j that i is the one to find: each pair is found
   /// once, by the one of the lower level, or of two on one level by the one that stands first in its grid.
@@ -22,6 +22,12 @@ class LevelGrid {
     const Quad& x = spheres_[i];
     look_forward(levels_[level_[i]], i, x, found);
     for (std::size_t l = level_[i] + 1U; l < levels_.size(); ++l) look_around(levels_[l], x, found);
+  }
+  /// Calls found(j) for every j with |x - x_j| < x.w + w_j.
+  template <class Found>
+  void for_each_within(const Quad& x, const Found& found) const {
+    for (const Level& level : levels_)
+      if (!level.order.empty()) look_around(level, x, found);
   }
   std::size_t levels() const { return levels_.size(); }
 
@@ -84,7 +90,7 @@ class LevelGrid {
       for (std::int64_t y = y0; y <= y1; ++y) look_in_row(level, x0, x1, y, z, q, found);
   }
 
-  const std::vector<Quad>& spheres_;
+  std::vector<Quad> spheres_;
   std::vector<Level> levels_;
   std::vector<std::uint8_t> level_;  // of each sphere
   std::vector<std::uint32_t> slot_;  // of each sphere in its level's order

@@ -56,7 +56,8 @@ void fed_keys(Fields& f, Feed& r) {
          r.drop_height);
   f.real({.name = "speed",
           .meaning =
-              "at entry, in a random direction; of a lattice, each component is random up to it; 0 = at rest",
+              "at entry, in a random direction; of a lattice or a cloud, each component is random up to it; "
+              "0 = at rest",
           .dimension = D::speed,
           .range = between(0, 1e3)},
          r.speed);
@@ -94,11 +95,19 @@ void feed_keys(Fields& f, CaseRecord& r) {
       {.name = "kind",
        .meaning =
            "layers = flat layers over the whole section; pour = handfuls from random points in a circle; "
-           "lattice = all at the start on a cubic lattice; placed = where the case or a CSV file says"},
-      r.feed_kind, {"layers", "pour", "lattice", "placed"});
-  const bool placed = r.feed_kind == "placed", lattice = r.feed_kind == "lattice";
+           "lattice = all at the start on a cubic lattice; scatter = all at the start at random places; "
+           "placed = where the case or a CSV file says"},
+      r.feed_kind, {"layers", "pour", "lattice", "scatter", "placed"});
+  const bool placed = r.feed_kind == "placed", lattice = r.feed_kind == "lattice",
+             scatter = r.feed_kind == "scatter";
   f.when(!placed, "kind not \"placed\"", [&] { fed_keys(f, r.feed); });
-  f.when(!placed && !lattice, "kind = \"layers\" or \"pour\"", [&] { poured_keys(f, r.feed); });
+  f.when(!placed && !lattice && !scatter, "kind = \"layers\" or \"pour\"", [&] { poured_keys(f, r.feed); });
+  f.when(scatter, "kind = \"scatter\"", [&] {
+    f.real({.name = "cloud_density",
+            .meaning = "share of the cloud that the pellets' bounding spheres fill",
+            .range = above_zero_to(0.3, "in a denser one not every pellet finds a place")},
+           r.feed.cloud_density);
+  });
   f.when(lattice, "kind = \"lattice\"", [&] {
     f.real({.name = "spacing",
             .meaning = "of the lattice's sites",

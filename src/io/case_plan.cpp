@@ -120,7 +120,7 @@ struct Expected {
 double impact_speed(const Scene& s) {
   const double g = s.gravity.norm();
   double speed = 0;
-  if (s.feed.kind == FeedKind::lattice) return landing_speed(s);
+  if (s.feed.kind != FeedKind::placed && enters_at_once(s.feed.kind)) return landing_speed(s);
   if (s.feed.kind != FeedKind::placed)
     return std::sqrt(2 * g * s.feed.drop_height + s.feed.speed * s.feed.speed);
   for (const PlacedPellet& p : s.feed.placed)
@@ -160,10 +160,9 @@ Expected expect(const Scene& s) {
   }
   const double n = expected_pellets(s), g = std::max(s.gravity.norm(), 1e-3);
   const bool placed = s.feed.kind == FeedKind::placed;
-  const bool at_once = placed || s.feed.kind == FeedKind::lattice;
+  const bool at_once = enters_at_once(s.feed.kind);
   const double feeding = at_once ? 0 : std::ceil(n / s.feed.per_layer - 1) * s.feed.interval;
-  const double height = s.feed.kind == FeedKind::lattice ? highest_of_lattice(s) : s.feed.drop_height;
-  const double fall = std::sqrt(2 * (placed ? expected_height(s) : height) / g);
+  const double fall = std::sqrt(2 * (placed ? expected_height(s) : highest_at_entry(s)) / g);
   e.simulated = s.stepping.duration > 0 ? s.stepping.duration
                                         : std::min(s.stepping.max_time, feeding + fall + kSettling);
   e.steps = e.step > 0 ? e.simulated / e.step : 0;
@@ -241,6 +240,10 @@ std::string feed_text(const Scene& s) {
   if (f.kind == FeedKind::lattice)
     return fmt::format("  feed: {:.0f} pellets on a cubic lattice from {} above the floor, at the start\n",
                        expected_pellets(s), q(f.drop_height, D::length));
+  if (f.kind == FeedKind::scatter)
+    return fmt::format(
+        "  feed: {:.0f} pellets in a random cloud from {} to {} above the floor, at the start\n",
+        expected_pellets(s), q(f.drop_height, D::length), q(highest_at_entry(s), D::length));
   std::vector<std::string> ends;
   if (f.count) ends.push_back(fmt::format("{} pellets", *f.count));
   if (f.height) ends.push_back("a bed of " + q(*f.height, D::length));

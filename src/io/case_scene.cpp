@@ -120,6 +120,7 @@ Feed make_feed(const CaseRecord& record, Problems& problems) {
   feed.kind = record.feed_kind == "pour"      ? FeedKind::pour
               : record.feed_kind == "placed"  ? FeedKind::placed
               : record.feed_kind == "lattice" ? FeedKind::lattice
+              : record.feed_kind == "scatter" ? FeedKind::scatter
                                               : FeedKind::layers;
   if (feed.kind != FeedKind::placed) return feed;
   for (const PlacedRecord& r : record.placed) {
@@ -222,8 +223,8 @@ std::vector<std::string> contradictions(const CaseRecord& r, const std::string& 
   if (sized && r.feed_kind == "placed")
     problems.add("pellet.sizes", "sizes of placed pellets", "nothing: each placed pellet has its own scale",
                  "remove [pellet.sizes], or feed the pellets");
-  if (r.feed_kind == "lattice" && packs_on_lattice(r.method))
-    problems.add("feed.kind", fmt::format("\"lattice\" with method \"{}\"", r.method),
+  if ((r.feed_kind == "lattice" || r.feed_kind == "scatter") && packs_on_lattice(r.method))
+    problems.add("feed.kind", fmt::format("\"{}\" with method \"{}\"", r.feed_kind, r.method),
                  "\"layers\", \"pour\" or \"placed\"",
                  "pellets that start far above the container have no cells there");
   if (r.feed_kind != "placed") {

@@ -43,7 +43,14 @@ PACKBED_INLINE double total(const Four& v) {
   return (v[0] + v[1]) + (v[2] + v[3]);
 }
 PACKBED_INLINE bool any(const FourFlags& f) {
+#if defined(__SSE2__) && defined(__GNUC__) && !defined(__clang__)
+  using Two = double __attribute__((vector_size(16)));
+  return __builtin_ia32_movmskpd(
+             Two(__builtin_shufflevector(f, f, 0, 1) |  // the compiler would take it apart
+                 __builtin_shufflevector(f, f, 2, 3))) != 0;
+#else
   return (f[0] | f[1] | f[2] | f[3]) != 0;
+#endif
 }
 
 struct FourVec {
@@ -83,6 +90,21 @@ PACKBED_INLINE FourQuads turned(const Four& a, const Four& b, const Four& c, con
   return {
       __builtin_shufflevector(ab_xz, cd_xz, 0, 1, 4, 5), __builtin_shufflevector(ab_yw, cd_yw, 0, 1, 4, 5),
       __builtin_shufflevector(ab_xz, cd_xz, 2, 3, 6, 7), __builtin_shufflevector(ab_yw, cd_yw, 2, 3, 6, 7)};
+}
+
+/// The same from memory: half as many shuffles, as the halves of a vector can be loaded where they are
+/// wanted.
+PACKBED_INLINE FourQuads turned(const Quad& a, const Quad& b, const Quad& c, const Quad& d) {
+  using Two = double __attribute__((vector_size(16)));
+  const auto halves = [](const double& low, const double& high) __attribute__((always_inline)) {
+    return __builtin_shufflevector(reinterpret_cast<const Two&>(low), reinterpret_cast<const Two&>(high), 0,
+                                   1, 2, 3);
+  };
+  const Four ac_xy = halves(a.x, c.x), bd_xy = halves(b.x, d.x);
+  const Four ac_zw = halves(a.z, c.z), bd_zw = halves(b.z, d.z);
+  return {
+      __builtin_shufflevector(ac_xy, bd_xy, 0, 4, 2, 6), __builtin_shufflevector(ac_xy, bd_xy, 1, 5, 3, 7),
+      __builtin_shufflevector(ac_zw, bd_zw, 0, 4, 2, 6), __builtin_shufflevector(ac_zw, bd_zw, 1, 5, 3, 7)};
 }
 
 #if defined(__GNUC__) && !defined(__clang__)

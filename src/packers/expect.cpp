@@ -19,9 +19,10 @@ std::pair<double, double> scales_of(const Scene& scene, std::uint32_t kind) {
 }
 
 double landing_speed(const Scene& scene) {
-  const bool lattice = scene.feed.kind == FeedKind::lattice;
-  double fall = lattice ? highest_of_lattice(scene) : scene.feed.drop_height;
-  double speed = lattice ? std::sqrt(3.0) * scene.feed.speed : scene.feed.speed;
+  // when all fall together, each component of a velocity is random
+  const bool components = enters_at_once(scene.feed.kind);
+  double fall = highest_at_entry(scene);
+  double speed = components ? std::sqrt(3.0) * scene.feed.speed : scene.feed.speed;
   for (const PlacedPellet& p : scene.feed.placed) {
     const double radius = p.scale * scene.pellets[p.kind].shape->bounding_radius;
     fall = std::max(fall, p.pose.position.z());
@@ -49,10 +50,8 @@ double step_for(const Scene& scene, double contact, const std::string& fix) {
 double expected_time(const Scene& scene) {
   if (scene.stepping.duration > 0) return scene.stepping.duration;
   const double g = std::max(1e-9, scene.gravity.norm());
-  const bool lattice = scene.feed.kind == FeedKind::lattice;
-  const double height = lattice ? highest_of_lattice(scene) : scene.feed.drop_height;
-  const double fall = std::sqrt(2.0 * std::max(0.0, height) / g);
-  const double layers = lattice || scene.feed.kind == FeedKind::placed
+  const double fall = std::sqrt(2.0 * std::max(0.0, highest_at_entry(scene)) / g);
+  const double layers = enters_at_once(scene.feed.kind)
                             ? 0.0
                             : std::ceil(static_cast<double>(scene.feed.count.value_or(1000)) /
                                         std::max(1, scene.feed.per_layer));

@@ -11,6 +11,7 @@
 #include "packers/entry.hpp"
 #include "packers/layer.hpp"
 #include "packers/overlap_test.hpp"
+#include "packers/scatter.hpp"
 
 namespace packbed {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 constexpr double kWait = 0.25;         // of the interval, between tries while there is no room
 constexpr int kTurns = 8;              // patterns tried for one layer before it waits
 constexpr int kDraws = 100;            // points tried for one pellet of a handful before it waits
+constexpr int kScatterDraws = 10000;   // places tried for one pellet of a cloud
 constexpr double kDensityGuess = 0.6;  // packing density, only for estimates of how many will be asked for
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
@@ -55,12 +57,16 @@ std::vector<Sort> shuffled_sorts(const Scene& scene) {
   return sorts;
 }
 
-/// At entry: of a random direction; from a lattice, of random components.
+bool in_one_piece(FeedKind kind) {
+  return kind == FeedKind::lattice || kind == FeedKind::scatter;
+}
+
+/// At entry: of a random direction; when all enter together, of random components.
 Vec3 entry_velocity(const Scene& scene, std::uint32_t id) {
   const double speed = scene.feed.speed;
   if (!(speed > 0)) return Vec3::Zero();
   Random random(scene.seed, Stream::feed_velocity, id);
-  if (scene.feed.kind != FeedKind::lattice) return speed * random.on_sphere();
+  if (!in_one_piece(scene.feed.kind)) return speed * random.on_sphere();
   Vec3 velocity;
   for (int d = 0; d < 3; ++d) velocity[d] = random.uniform(-speed, speed);
   return velocity;
@@ -111,9 +117,9 @@ void check_settings(const Scene& scene, double pellet_radius) {
   const Feed& feed = scene.feed;
   if (!feed.count && !feed.height && !feed.mass)
     throw InputError("feed", "no end", "a count, a height or a mass", "add for example feed.count = 300");
-  if (feed.kind == FeedKind::lattice && !feed.count && !feed.mass)
-    throw InputError("feed", "a lattice that ends at a height", "a count or a mass",
-                     "all pellets of a lattice enter together, before there is a bed");
+  if (in_one_piece(feed.kind) && !feed.count && !feed.mass)
+    throw InputError("feed", "pellets that enter together, until a height", "a count or a mass",
+                     "all pellets of a lattice or a cloud enter before there is a bed");
   if (!(feed.interval > 0)) throw InputError("feed.interval", "0", "greater than 0");
   if (feed.per_layer < 1) throw InputError("feed.per_layer", fmt::format("{}", feed.per_layer), "at least 1");
   const bool floor = scene.container.kind != ContainerKind::none;
@@ -149,6 +155,7 @@ struct Feeder::Plan {
       dense = layer_pattern(circle, 2 * radius, scene.feed.per_layer, false);
     }
     if (scene.feed.kind == FeedKind::lattice) plane = lattice_plane();
+    if (scene.feed.kind == FeedKind::scatter) cloud_height = height_of_cloud();
     check_wall();
   }
 
@@ -194,8 +201,30 @@ struct Feeder::Plan {
     return sites;
   }
 
-  std::size_t lattice_count() const {
+  std::size_t count_at_once() const {
     return static_cast<std::size_t>(allowance(0, 0, std::numeric_limits<int>::max()));
+  }
+  /// Radius of the bounding sphere [m].
+  double reach_of(std::uint32_t id) const {
+    const Sort sort = sort_of(id);
+    Pellet pellet;
+    pellet.shape = sort.kind;
+    pellet.scale = sort.scale;
+    return test.bounding_radius(pellet);
+  }
+  /// So high that the bounding spheres fill the share of the cloud that the case asks for.
+  double height_of_cloud() const {
+    double cubes = 0;
+    for (std::uint32_t id = 0; id < count_at_once(); ++id) cubes += std::pow(reach_of(id), 3);
+    const Vec2 half = rectangle() + Vec2::Constant(radius);
+    const double section = feeds_rectangle() ? 4 * half.x() * half.y() : kPi * half.x() * half.x();
+    return std::max(2 * radius, 4.0 / 3.0 * kPi * cubes / (section * scene.feed.cloud_density));
+  }
+  /// A random place in the cloud for a sphere.
+  Vec3 in_cloud(Random& random, double reach) const {
+    const double low = scene.feed.drop_height - radius;
+    const double height = random.uniform(low + reach, low + cloud_height - reach);
+    return at_random(random, height, radius - reach);
   }
   std::size_t last_level(std::size_t count) const { return (count - 1) / plane.size(); }
 
@@ -222,13 +251,14 @@ struct Feeder::Plan {
                      "change the height, or give feed.radius");
   }
 
-  Vec3 at_random(Random& random, double height) const {
+  /// `nearer`: how much nearer to the walls than the largest pellet [m].
+  Vec3 at_random(Random& random, double height, double nearer = 0) const {
     if (feeds_rectangle()) {
-      const Vec2 half = rectangle();
+      const Vec2 half = rectangle() + Vec2::Constant(nearer);
       const double x = random.uniform(-half.x(), half.x()), y = random.uniform(-half.y(), half.y());
       return {x, y, height};
     }
-    const double r = circle * std::sqrt(random.uniform()), angle = random.uniform(0, 2 * kPi);
+    const double r = (circle + nearer) * std::sqrt(random.uniform()), angle = random.uniform(0, 2 * kPi);
     return {r * std::cos(angle), r * std::sin(angle), height};
   }
 
@@ -279,6 +309,7 @@ struct Feeder::Plan {
   std::vector<Sort> sorts;
   LayerPattern loose, dense;
   std::vector<Vec2> plane;  // of the lattice
+  double cloud_height = 0;  // [m]
   std::vector<Pellet> placed;
 };
 
@@ -317,8 +348,8 @@ std::vector<Pellet> Feeder::enter(double time, std::span<const Pellet> present, 
   if (feed.kind == FeedKind::placed) {
     entering = plan_->placed;
     wanted = static_cast<int>(entering.size());
-  } else if (feed.kind == FeedKind::lattice) {
-    entering = enter_lattice();
+  } else if (in_one_piece(feed.kind)) {
+    entering = feed.kind == FeedKind::lattice ? enter_lattice() : enter_scattered();
     wanted = static_cast<int>(entering.size());
   } else {
     if (feed.height && surface >= *feed.height) {
@@ -340,8 +371,7 @@ std::vector<Pellet> Feeder::enter(double time, std::span<const Pellet> present, 
   state_.waiting = static_cast<int>(entering.size()) < wanted;
   state_.attempt = entering.empty() ? state_.attempt + 1 : 0;
   state_.next_time += entering.empty() ? kWait * feed.interval : feed.interval;
-  const bool at_once = feed.kind == FeedKind::placed || feed.kind == FeedKind::lattice;
-  if (at_once || plan_->allowance(state_.fed, state_.mass, 1) < 1) state_.done = 1;
+  if (enters_at_once(feed.kind) || plan_->allowance(state_.fed, state_.mass, 1) < 1) state_.done = 1;
   return entering;
 }
 
@@ -368,8 +398,9 @@ std::vector<Pellet> Feeder::enter_layer(std::span<const Pellet> near, double hei
 }
 
 double Feeder::highest() const {
-  return plan_->scene.feed.drop_height +
-         static_cast<double>(plan_->last_level(plan_->lattice_count())) * plan_->lattice_spacing();
+  const double low = plan_->scene.feed.drop_height;
+  if (plan_->scene.feed.kind == FeedKind::scatter) return low - plan_->radius + plan_->cloud_height;
+  return low + static_cast<double>(plan_->last_level(plan_->count_at_once())) * plan_->lattice_spacing();
 }
 
 /// Planes from the drop height upwards; the last one is filled at random sites.
@@ -377,7 +408,7 @@ std::vector<Pellet> Feeder::enter_lattice() const {
   const Scene& scene = plan_->scene;
   std::vector<Vec2> plane = plan_->plane;
   Random random(scene.seed, Stream::feed_position, 0);
-  const std::size_t count = plan_->lattice_count(), last = plan_->last_level(count);
+  const std::size_t count = plan_->count_at_once(), last = plan_->last_level(count);
   std::vector<Pellet> entering;
   entering.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -391,8 +422,35 @@ std::vector<Pellet> Feeder::enter_lattice() const {
   return entering;
 }
 
-double highest_of_lattice(const Scene& scene) {
-  return Feeder(scene).highest();
+std::vector<Pellet> Feeder::enter_scattered() const {
+  const Scene& scene = plan_->scene;
+  std::vector<double> reach(plan_->count_at_once());
+  for (std::size_t i = 0; i < reach.size(); ++i) reach[i] = plan_->reach_of(static_cast<std::uint32_t>(i));
+  const auto draw = [&](std::size_t i, int attempt) -> std::optional<Vec3> {
+    Random random(scene.seed, Stream::feed_position, static_cast<std::uint32_t>(i),
+                  static_cast<std::uint32_t>(attempt));
+    const Vec3 place = plan_->in_cloud(random, reach[i]);
+    return plan_->room.holds_sphere(place, reach[i]) ? std::optional(place) : std::nullopt;
+  };
+  const std::vector<Vec3> places = scattered(reach, kScatterDraws, draw);
+  if (places.size() < reach.size())
+    throw InputError("feed.cloud_density", fmt::format("{}", scene.feed.cloud_density),
+                     "a cloud in which every pellet finds a place", "make it thinner, 0.2 always has room");
+  std::vector<Pellet> entering;
+  entering.reserve(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    entering.push_back(plan_->make_pellet(static_cast<std::uint32_t>(i)));
+    entering.back().pose.position = places[i];
+  }
+  return entering;
+}
+
+bool enters_at_once(FeedKind kind) {
+  return kind == FeedKind::placed || in_one_piece(kind);
+}
+
+double highest_at_entry(const Scene& scene) {
+  return in_one_piece(scene.feed.kind) ? Feeder(scene).highest() : scene.feed.drop_height;
 }
 
 std::vector<Pellet> Feeder::enter_handful(std::span<const Pellet> near, double height, int count) {

@@ -8,6 +8,9 @@
 //   pour      o  o o   a handful at random points of a circle, drawn again where they would overlap
 //   lattice  o o o o   all at time 0 on a cubic lattice from the drop height upwards, each with a velocity of
 //            o o o o   random components
+//   scatter   o o  o   all at time 0 at random places of a cloud from the drop height upwards, with
+//   velocities
+//            o  o   o  as those of a lattice
 //   placed             all that the case lists, at time 0
 #include <cstddef>
 #include <limits>
@@ -39,7 +42,7 @@ class Feeder {
   /// of its pellets lets these in and waits with the rest.
   std::vector<Pellet> enter(double time, std::span<const Pellet> present, double surface);
 
-  double highest() const;   ///< of the centres of a lattice [m]
+  double highest() const;   ///< of the centres of a lattice or of what may be scattered [m]
   int fed() const;          ///< pellets that have entered
   double fed_mass() const;  ///< [kg]
   /// Pellets that will have entered at the end. For a fill to a height only, an estimate (packing density
@@ -65,10 +68,13 @@ class Feeder {
 
   std::vector<Pellet> enter_layer(std::span<const Pellet> near, double height, int count);
   std::vector<Pellet> enter_lattice() const;
+  std::vector<Pellet> enter_scattered() const;
   std::vector<Pellet> enter_handful(std::span<const Pellet> near, double height, int count);
 };
 
-/// Height of the centres of the highest plane of a scene that starts from a lattice [m].
-double highest_of_lattice(const Scene& scene);
+/// Whether all pellets are there at time 0.
+bool enters_at_once(FeedKind kind);
+/// Height of the highest centre that is fed in one piece, else the drop height [m].
+double highest_at_entry(const Scene& scene);
 
 }  // namespace packbed

@@ -140,6 +140,36 @@ TEST(SizeRatio34, SmallSphereIsPressedOutBetweenTwoLargeOnes) {
   EXPECT_LT(std::hypot(v.x(), v.y()), 1e-6);
 }
 
+/// A block of spheres of two sizes at rest, nearly touching, that a few fast ones are shot into.
+Scene shot_into_a_block() {
+  Scene s = sphere_scene(ContainerKind::plane, {make_sphere("small", 0.8e-3), make_sphere("large", 1e-3)});
+  set_contact(s, 0.3, 0.1);
+  for (int i = 0; i < 500; ++i) {
+    PlacedPellet& p =
+        place(s, Vec3(2.02e-3 * (i % 10), 2.02e-3 * (i / 10 % 10), 1.01e-3 + 2.02e-3 * (i / 100)));
+    p.kind = i % 3 == 0;
+  }
+  for (int i = 0; i < 4; ++i) place(s, {2.02e-3 * (3 + i), 9e-3, 14e-3}).velocity = {0.5 * i, 0, -8};
+  return s;
+}
+
+// A hit sphere leaves its margin at once and gets partners of its own, without a search for all. With a skin
+// so thick that nobody ever leaves it, all that can touch is listed from the start: the same course.
+TEST(ListsBetweenSearches, MissNoContact) {
+  const double end = 1.5e-3;
+  Scene s = shot_into_a_block();
+  const Course some = run(s, end);
+  const auto& counters = some.result.record.counters;
+  EXPECT_GT(counters.at("spheres_listed_between_searches"), 3 * counters.at("searches"));
+  ASSERT_GT(counters.at("touches"), 1000);
+  s.stepping.skin = 14e-3;
+  const Course all = run(s, end);
+  EXPECT_EQ(all.result.record.counters.at("searches"), 1);
+  EXPECT_EQ(some.result.record.counters.at("touches"), all.result.record.counters.at("touches"));
+  for (std::size_t i = 0; i < s.feed.placed.size(); ++i)
+    ASSERT_LT((some.end(i).pose.position - all.end(i).pose.position).norm(), 1e-9) << i;
+}
+
 // A ball that rolls on a floor: rolling friction brakes it by mu_r g / (1 + 2/5).
 TEST(RollingFriction, BrakesARollingBall) {
   const double radius = 2e-3, mu = 0.05, speed = 0.2;

@@ -46,7 +46,7 @@ std::vector<Pellet> fed(const Scene& scene) {
 
 TEST(FeedSizes, TotalsAreExactAndTheOrderBelongsToTheSeed) {
   const auto layers = fed(sized_scene(FeedKind::layers)), handfuls = fed(sized_scene(FeedKind::pour)),
-             lattice = fed(sized_scene(FeedKind::lattice));
+             lattice = fed(sized_scene(FeedKind::lattice)), cloud = fed(sized_scene(FeedKind::scatter));
   std::map<double, int> count;
   for (const Pellet& p : layers) ++count[p.scale];
   EXPECT_EQ(count, (std::map<double, int>{{1, 20}, {0.75, 40}, {0.375, 90}}));
@@ -54,6 +54,7 @@ TEST(FeedSizes, TotalsAreExactAndTheOrderBelongsToTheSeed) {
     EXPECT_EQ(layers[i].id, i);
     EXPECT_EQ(layers[i].scale, handfuls[i].scale);
     EXPECT_EQ(layers[i].scale, lattice[i].scale);
+    EXPECT_EQ(layers[i].scale, cloud[i].scale);
   }
   Scene other = sized_scene(FeedKind::lattice);
   other.seed = 12;
@@ -117,6 +118,29 @@ TEST(FeedSizes, SpacingIsKeptAndNeverLessThanTheLargest) {
   scene = sized_scene(FeedKind::lattice);
   scene.pellets[0].sizes[0].scale = 8;  // 64 mm in a tube of 60 mm
   EXPECT_THROW(Feeder{scene}, InputError);
+}
+
+TEST(FeedSizes, ACloudIsAsThinAsAskedAndNoDenserThanItCanBe) {
+  Scene scene = sized_scene(FeedKind::scatter);
+  for (const double density : {0.05, 0.3}) {
+    scene.feed.cloud_density = density;
+    double low = 1, high = 0, volume = 0;
+    for (const Pellet& p : fed(scene)) {
+      const double radius = 4e-3 * p.scale, across = p.pose.position.head<2>().norm();
+      EXPECT_LE(across + radius, 30e-3 + 1e-9);
+      low = std::min(low, p.pose.position.z() - radius);
+      high = std::max(high, p.pose.position.z() + radius);
+      volume += 4 * kPi / 3 * std::pow(radius, 3);
+    }
+    const double height = volume / (kPi * 30e-3 * 30e-3 * density);
+    EXPECT_GE(low, 0.196 - 1e-9);
+    EXPECT_LE(high, 0.196 + height + 1e-9);
+    EXPECT_GT(high - low, 0.9 * height);
+    EXPECT_LE(Feeder(scene).highest(), 0.196 + height + 1e-9);
+  }
+  scene.feed.cloud_density = 0.6;
+  Feeder feeder(scene);
+  EXPECT_THROW(feeder.enter(0, {}, 0), InputError);
 }
 
 TEST(FeedSizes, ALayerOfManySizesStandsInOnePlane) {

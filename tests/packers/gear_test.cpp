@@ -28,6 +28,7 @@ Errors after_a_radian(int steps) {
   s.listed_at = {{1, 0, 0, 100}};
   s.force = s.twist = {{}};
   state.slot_first = {0, 0};
+  state.strayed = {0};
   begin_gear(model, state);
   // derivatives of cos t at 0: 0, -1, 0, 1, 0; of exp(-t): -1, 1, -1, 1
   const double h = model.step;
@@ -72,6 +73,7 @@ TEST(Gear, FallsExactly) {
   s.listed_at = {{0, 0, 5, 100}};
   s.force = s.twist = {{}};
   state.slot_first = {0, 0};
+  state.strayed = {0};
   begin_gear(model, state);
   for (int i = 0; i < 100; ++i) {
     predict(model, state);

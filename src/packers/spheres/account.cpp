@@ -12,21 +12,33 @@ Vec3 vec(const Quad& q) {
   return {q.x, q.y, q.z};
 }
 
+List joined(List a, const List& b) {
+  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  add(a.block, b.block), add(a.slip, b.slip), add(a.roll, b.roll), add(a.dash, b.dash);
+  return a;
+}
+
 /// All listed contacts as they are now; nothing moves on.
 struct Contacts {
-  std::vector<SphereContact> pairs, walls;
-  std::vector<Quad> sides;  // of a mesh container: see sides_of
+  List pair_list, wall_list;
+  std::vector<SphereContact> pairs, walls;  // an entry a lane
+  std::vector<Quad> sides;                  // of a mesh container: see sides_of
 };
 Contacts contacts_of(const Model& model, State& state) {
   Spheres& s = state.spheres;
-  const SphereView view = view_of(s);  // velocities are those of the end of the step now
-  Contacts out{
-      std::vector<SphereContact>(state.pairs.lanes()), std::vector<SphereContact>(state.walls.lanes()), {}};
+  Contacts out{joined(joined(state.pairs, state.near), state.late.pairs),
+               joined(state.walls, state.late.walls),
+               {},
+               {},
+               {}};
+  out.pairs.resize(out.pair_list.lanes());
+  out.walls.resize(out.wall_list.lanes());
   SphereTally unused;
-  touch_spheres(model.pellet_law, view, 0.0, state.pairs.block, state.pairs.memory_from(0), unused,
+  const std::size_t walls = out.wall_list.block.size();
+  touch_spheres(model.pellet_law, view_of(s), 0.0, out.pair_list.block, out.pair_list.memory_from(0), unused,
                 out.pairs.data());
-  touch_container_walls(model, state, view, 0.0, 0, state.walls.block.size(), unused, out.walls.data());
-  if (model.solid) out.sides = sides_of(model, state, 0, state.walls.block.size());
+  touch_container_walls(model, s, out.wall_list, 0.0, 0, walls, unused, out.walls.data());
+  if (model.solid) out.sides = sides_of(model, s, out.wall_list, 0, walls);
   return out;
 }
 
@@ -61,7 +73,7 @@ Energy books_of(const Model& model, const State& state, const Contacts& contacts
 void audit_walls(RunRecord& record, const Model& model, const State& state, const Contacts& contacts) {
   double base = 0, side = 0, weight = 0;
   for (std::size_t p = 0; p < contacts.walls.size(); ++p)
-    (state.walls.b(p) == 0 ? base : side) += model.up.dot(vec(contacts.walls[p].force));
+    (contacts.wall_list.b(p) == 0 ? base : side) += model.up.dot(vec(contacts.walls[p].force));
   for (const Quad& v : state.spheres.velocity)
     if (v.w > 0) weight += model.gravity.norm() / v.w;
   audit_wall_forces(record, base, side, weight, model.container);
@@ -86,6 +98,7 @@ std::vector<Pellet> pellets_of(const State& state) {
 }
 
 PackedBed bed_of(const Scene& scene, const Model& model, State& state) {
+  finish_kick(model, state);
   PackedBed bed = bed_of_scene(scene, "sphere");
   bed.pellets = pellets_of(state);
   const Contacts contacts = contacts_of(model, state);
@@ -94,7 +107,7 @@ PackedBed bed_of(const Scene& scene, const Model& model, State& state) {
   for (std::size_t p = 0; p < contacts.pairs.size(); ++p) {
     const SphereContact& c = contacts.pairs[p];
     if (!(c.force.w > 0)) continue;
-    const std::uint32_t a = state.pairs.a(p), b = state.pairs.b(p);
+    const std::uint32_t a = contacts.pair_list.a(p), b = contacts.pair_list.b(p);
     const Vec3 xa = vec(s.place[a]), xb = vec(s.place[b]), normal = (xa - xb).normalized();
     const Vec3 point = xa - (s.place[a].w - 0.5 * c.force.w) * normal, force = vec(c.force);
     const bool ascending = s.id[a] < s.id[b];
@@ -104,7 +117,7 @@ PackedBed bed_of(const Scene& scene, const Model& model, State& state) {
   for (std::size_t p = 0; p < contacts.walls.size(); ++p) {
     const SphereContact& c = contacts.walls[p];
     if (!(c.force.w > 0)) continue;
-    const std::uint32_t a = state.walls.a(p), w = state.walls.b(p);
+    const std::uint32_t a = contacts.wall_list.a(p), w = contacts.wall_list.b(p);
     const Vec3 x = vec(s.place[a]), flat = vec(model.solid ? contacts.sides[p] : model.walls[w]);
     const Vec3 normal = flat.squaredNorm() > 0.5 ? flat : Vec3(-x.x(), -x.y(), 0).normalized();
     bed.contacts.push_back(
@@ -116,6 +129,7 @@ PackedBed bed_of(const Scene& scene, const Model& model, State& state) {
 }
 
 Snapshot snapshot_of(const Model& model, State& state, std::vector<Pellet>& pellets) {
+  finish_kick(model, state);
   pellets = pellets_of(state);
   Snapshot shot = still_of(state.time, pellets);
   for (std::size_t i = 0; i < state.spheres.size(); ++i)
@@ -126,6 +140,7 @@ Snapshot snapshot_of(const Model& model, State& state, std::vector<Pellet>& pell
 
 void fill_record(RunRecord& record, const Scene& scene, const Model& model, State& state,
                  const Feeder& feeder) {
+  finish_kick(model, state);
   record.method = scene.method;
   record.kernel = "sphere";
   record.seed = scene.seed;
@@ -145,6 +160,7 @@ void fill_record(RunRecord& record, const Scene& scene, const Model& model, Stat
   record.counters = {{"touches", l.touches},
                      {"mean_listed_pairs", l.listed / steps},
                      {"searches", static_cast<double>(state.searches)},
+                     {"spheres_listed_between_searches", static_cast<double>(state.relisted)},
                      {"stiffness_pellet_N_per_m", model.pellet_law.stiffness},
                      {"stiffness_wall_N_per_m", model.wall_law.stiffness},
                      {"modulus_pellet_Pa", model.pellet_law.modulus},

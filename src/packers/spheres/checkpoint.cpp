@@ -5,11 +5,11 @@
 namespace packbed::spheres {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'53000001;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'53000002;  // changes with any change of State
 
 template <class Archive, class L>
 void visit_list(Archive& io, L& list) {
-  io(list.block), io(list.first), io(list.slip), io(list.roll), io(list.dash);
+  io(list.block), io(list.first), io(list.slip), io(list.roll), io(list.dash), io(list.filled);
 }
 
 /// Names every member once, for writing and for reading.
@@ -22,8 +22,12 @@ void visit(Archive& io, S& s) {
   for (auto& of : s.gear.position) io(of);
   for (auto& of : s.gear.spin) io(of);
   io(s.gear.ahead), io(s.gear.spin_ahead);
-  visit_list(io, s.pairs), visit_list(io, s.walls);
-  io(s.slot), io(s.slot_first), io(s.first_slot), io(s.tally), io(s.search_due), io(s.searches);
+  visit_list(io, s.pairs), visit_list(io, s.near), visit_list(io, s.walls);
+  visit_list(io, s.late.pairs), visit_list(io, s.late.walls);
+  io(s.late.moved), io(s.late.has_moved), io(s.late.reach);
+  io(s.slot), io(s.slot_first), io(s.first_slot), io(s.tally), io(s.kick_due), io(s.search_due),
+      io(s.strayed);
+  io(s.searches), io(s.relisted), io(s.flight_steps);
   visit_rest(io, s.rest);
   io(s.waited), io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.ledger);
 }

@@ -43,18 +43,29 @@ PACKBED_INLINE Four turn_of(const Spheres& s, std::size_t i) {
   return four(-s.place[i].w * s.spin[i].w) * four(s.twist[i]);
 }
 
+/// What acted at the end of the last step is of no use any more.
+PACKBED_INLINE void clear_forces(const Model& model, Spheres& s, std::size_t i) {
+  four(s.force[i]) = Four{};
+  if (model.turns) four(s.twist[i]) = Four{};
+}
+
 /// Adds what other chunks have left for sphere i.
 PACKBED_INLINE void gather_slots(const State& state, std::size_t i, std::vector<Quad>& force) {
   for (std::uint32_t k = state.slot_first[i]; k < state.slot_first[i + 1]; ++k)
     four(force[i]) += four(force[state.slot[k]]);
 }
 
-/// The step has moved the spheres; `left_margin`: one of them farther than its lists allow.
-inline void end_of_drift(const Model& model, State& state, bool left_margin) {
+/// Whether sphere i has gone farther than its lists allow.
+PACKBED_INLINE bool has_strayed(const Spheres& s, std::size_t i) {
+  return way_from(s.place[i], s.listed_at[i]) > s.listed_at[i].w;
+}
+
+/// The step has moved the spheres.
+inline void end_of_drift(const Model& model, State& state) {
   ++state.steps;
   state.time += model.step;
-  state.ledger.listed += static_cast<double>(state.pairs.lanes());
-  if (left_margin) state.search_due = 1;
+  state.ledger.listed +=
+      static_cast<double>(state.pairs.lanes() + state.near.lanes() + state.late.pairs.lanes());
 }
 
 }  // namespace packbed::spheres

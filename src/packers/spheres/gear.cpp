@@ -7,7 +7,6 @@
 // equation with forces that depend on velocity, and first order equation.
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 #include "math/threads.hpp"
 #include "packers/spheres/chunks.hpp"
@@ -42,9 +41,8 @@ void predict(const Model& model, State& state) {
   Spheres& s = state.spheres;
   Gear& g = state.gear;
   const double step = model.step;
-  std::atomic<bool> left_margin{false};
-  for_each_chunk(s.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    bool left = false;
+  for_each_chunk(s.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+    bool strayed = false;
     for (std::size_t i = begin; i < end; ++i) {
       const Four x1 = step * without_w(s.velocity[i]);
       Four &x2 = four(g.position[0][i]), &x3 = four(g.position[1][i]), &x4 = four(g.position[2][i]);
@@ -56,7 +54,8 @@ void predict(const Model& model, State& state) {
       x3 += 4.0 * x4 + 10.0 * x5;
       x4 += 5.0 * x5;
       four(s.velocity[i]) = (1.0 / step) * mid + only_w(s.velocity[i]);
-      left |= way_from(s.place[i], s.listed_at[i]) > s.listed_at[i].w;
+      clear_forces(model, s, i);
+      strayed |= has_strayed(s, i);
       if (!model.turns) continue;
       Four &w1 = four(g.spin[0][i]), &w2 = four(g.spin[1][i]), &w3 = four(g.spin[2][i]);
       const Four w0 = four(s.spin[i]), w4 = four(g.spin[3][i]);
@@ -66,9 +65,9 @@ void predict(const Model& model, State& state) {
       w2 += 3.0 * w3 + 6.0 * w4;
       w3 += 4.0 * w4;
     }
-    if (left) left_margin.store(true, std::memory_order_relaxed);
+    state.strayed[c] = strayed;
   });
-  end_of_drift(model, state, left_margin);
+  end_of_drift(model, state);
 }
 
 void correct(const Model& model, State& state) {

@@ -120,7 +120,7 @@ SphereLaw find_law(const Scene& scene, const ContactLaw& law, const std::vector<
 double stiffness_of(const SphereLaw& law, double radius, double mass, double speed) {
   const double deepest =
       law.hertz ? std::pow(1.25 * mass * speed * speed / (law.modulus * std::sqrt(radius)), 0.4) : 1.0;
-  return elastic_of(law, four(radius), four(deepest)).slope[0];
+  return elastic_of(law, law.hertz, four(radius), four(deepest)).slope[0];
 }
 
 /// Contact time of the stiffest contact: of the smallest sphere.

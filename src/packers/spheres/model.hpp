@@ -12,6 +12,7 @@
 
 #include "bed/scene.hpp"
 #include "contact/sphere_pairs.hpp"
+#include "dynamics/level_grid.hpp"
 #include "packers/rest_watch.hpp"
 #include "packers/spheres/solid_wall.hpp"
 
@@ -75,6 +76,7 @@ struct List {
   std::vector<std::uint32_t> first;
   std::vector<SpringBlock> slip, roll;  // empty without friction, without rolling friction
   std::vector<DashBlock> dash;
+  std::uint32_t filled = 0;  // lanes in use, of a list that is added to
 
   std::uint32_t a(std::size_t pair) const { return block[pair / 4].a[pair % 4]; }
   std::uint32_t b(std::size_t pair) const { return block[pair / 4].b[pair % 4]; }
@@ -85,19 +87,34 @@ struct List {
   }
 };
 
+/// What has changed since the last search.
+struct Late {
+  List pairs, walls;                      // what is in no other list; `first` is empty
+  std::vector<std::uint32_t> moved;       // the spheres that were listed anew
+  std::vector<std::uint8_t> has_moved;    // of each sphere
+  std::vector<Quad> reach;                // of each sphere at the search: centre [m], radius and margin [m]
+  std::shared_ptr<const LevelGrid> grid;  // of these, made when it is needed; in no checkpoint
+};
+
 struct State {
   double time = 0;  // simulated [s]
   std::int64_t steps = 0;
   Spheres spheres;
   Gear gear;
-  List pairs, walls;  // of two spheres; of a sphere and a wall of the model's list
+  // Pairs of two spheres that touched at the last search, and that did not: blocks of these are looked at and
+  // seldom more. Pairs of a sphere and a wall of the model's list.
+  List pairs, near, walls;
+  Late late;
   // slots, entries of force and twist beyond the spheres: those of sphere i are slot[slot_first[i]] and on
   std::vector<std::uint32_t> slot, slot_first;
   std::vector<std::uint32_t> first_slot;  // of each chunk, which alone writes them
-  std::vector<SphereTally> tally;         // one a chunk, since the last search
-  std::uint8_t search_due = 1;
-  std::int64_t searches = 0;
-  RestWatch rest;  // by pellet id
+  std::vector<SphereTally> tally;         // one a chunk and one of the late pairs, since the last search
+  std::uint8_t kick_due = 0;              // the second half of the last step's
+  std::uint8_t search_due = 1;            // of all spheres
+  std::vector<std::uint8_t> strayed;      // of each chunk: one of its spheres has left its margin
+  std::int64_t searches = 0, relisted = 0;
+  double flight_steps = 60;  // so many steps may a sphere that touches nothing go before it is listed anew
+  RestWatch rest;            // by pellet id
   std::uint8_t waited = 0;
   std::int64_t snapshots = 0;
   double wall_s = 0, cpu_s = 0;  // spent before the last checkpoint

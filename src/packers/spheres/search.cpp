@@ -1,22 +1,22 @@
 // Phases feed and find_pairs: who is in the scene, in which order they stand in memory, and who may touch
 // whom before the next search.
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 
-#include "dynamics/level_grid.hpp"
 #include "math/threads.hpp"
 #include "packers/spheres/account.hpp"
-#include "packers/spheres/chunks.hpp"
+#include "packers/spheres/search.hpp"
 #include "packers/spheres/step.hpp"
 
 namespace packbed::spheres {
 namespace {
 
-// A sphere may go this many steps at its present speed before the lists are made anew: rarer searches, longer
-// lists.
-constexpr double kHorizonSteps = 60;
+// A sphere may go this many steps at its present speed before it is listed anew: rarer searches, longer
+// lists. Around one that flies there may be much room, and then more is better.
+constexpr double kHorizonSteps = 60, kMostFlightSteps = 2000;
+// Pairs that do not touch, over the spheres, between which the flight steps are left as they are.
+constexpr double kFewNear = 1, kManyNear = 2;
 // Searches between two sorts of the memory.
 constexpr std::int64_t kSortEvery = 32;
 // What moves faster is not part of the bed's surface [m/s].
@@ -109,33 +109,6 @@ Before sort_memory(State& state) {
   return order;
 }
 
-/// Number of the pair (a, b) as a found it; nothing when it did not.
-std::optional<std::size_t> find_pair(const List& list, std::uint32_t a, std::uint32_t b) {
-  if (a + 1 >= list.first.size()) return {};
-  for (std::size_t p = list.first[a]; p < list.first[a + 1]; ++p)
-    if (list.b(p) == b) return p;
-  return {};
-}
-
-double& lane(Quad& q, std::size_t k) {
-  return k == 0 ? q.x : k == 1 ? q.y : k == 2 ? q.z : q.w;
-}
-double lane(const Quad& q, std::size_t k) {
-  return k == 0 ? q.x : k == 1 ? q.y : k == 2 ? q.z : q.w;
-}
-void copy_spring(const SpringBlock& from, std::size_t old, double sign, SpringBlock& to, std::size_t p) {
-  for (std::size_t d = 0; d < 3; ++d) lane(to.stretch[d], p) = sign * lane(from.stretch[d], old);
-  lane(to.stiffness, p) = lane(from.stiffness, old);
-}
-
-/// What pair `old` of one list remembered, for pair `p` of another; sign -1 when a and b have changed places.
-void hand_over(const List& from, std::size_t old, double sign, List& to, std::size_t p) {
-  lane(to.dash[p / 4].drag, p % 4) = lane(from.dash[old / 4].drag, old % 4);
-  lane(to.dash[p / 4].closing, p % 4) = lane(from.dash[old / 4].closing, old % 4);
-  if (!to.slip.empty()) copy_spring(from.slip[old / 4], old % 4, sign, to.slip[p / 4], p % 4);
-  if (!to.roll.empty()) copy_spring(from.roll[old / 4], old % 4, sign, to.roll[p / 4], p % 4);
-}
-
 /// Partners that the spheres of a chunk have found, one after the other, and how many each.
 struct Found {
   std::vector<std::uint32_t> partner, count;
@@ -165,65 +138,51 @@ List listed(const std::vector<Found>& found, std::size_t spheres, const Model& m
     list.first.back() = static_cast<std::uint32_t>(pairs);
   }
   list.first.resize(spheres + 1, list.first.back());
-  list.dash.resize(list.block.size());
-  list.slip.resize(model.turns ? list.block.size() : 0);
-  list.roll.resize(model.rolls ? list.block.size() : 0);
+  make_memory(model, list);
   return list;
 }
 
-void list_pairs(const Model& model, State& state, const std::vector<Quad>& reach, const Before& before) {
+void list_pairs(const Model& model, State& state, const LevelGrid& grid, const Before& before) {
   const Spheres& s = state.spheres;
-  const LevelGrid grid(reach);
-  std::vector<Found> found(chunks_of(s.size()));
+  std::vector<Found> touching(chunks_of(s.size())), others(touching);
   for_each_chunk(s.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t had = found[c].partner.size();
+      touching[c].count.push_back(0), others[c].count.push_back(0);
       grid.for_each_near(static_cast<std::uint32_t>(i), [&](std::uint32_t j) {
-        if (s.velocity[i].w > 0 || s.velocity[j].w > 0) found[c].partner.push_back(j);
+        if (!(s.velocity[i].w > 0 || s.velocity[j].w > 0)) return;
+        const double reach = s.place[i].w + s.place[j].w;
+        Found& found = way_from(s.place[i], s.place[j]) < reach * reach ? touching[c] : others[c];
+        found.partner.push_back(j);
+        ++found.count.back();
       });
-      found[c].count.push_back(static_cast<std::uint32_t>(found[c].partner.size() - had));
     }
   });
-  const List old = std::move(state.pairs);
-  List& list = state.pairs = listed(found, s.size(), model, {});
-  parallel_for(list.lanes(), 4096, [&](std::size_t from, std::size_t to) {
-    for (std::size_t p = from; p < to; ++p) {
-      const std::uint32_t a = before[list.a(p)], b = before[list.b(p)];
-      if (a == b) continue;
-      if (const auto same = find_pair(old, a, b))
-        hand_over(old, *same, 1.0, list, p);
-      else if (const auto turned_round = find_pair(old, b, a))
-        hand_over(old, *turned_round, -1.0, list, p);
-    }
-  });
-}
-
-double distance_from(const SphereWall& wall, const Vec3& x) {
-  const bool round = vec(wall).squaredNorm() < 0.5;
-  return round ? wall.w - std::hypot(x.x(), x.y()) : vec(wall).dot(x) - wall.w;
+  const OldLists old({std::move(state.pairs), std::move(state.near)}, std::move(state.late.pairs));
+  state.pairs = listed(touching, s.size(), model, {});
+  state.near = listed(others, s.size(), model, {});
+  for (List* list : {&state.pairs, &state.near})
+    parallel_for(list->lanes(), 4096, [&](std::size_t from, std::size_t to) {
+      for (std::size_t p = from; p < to; ++p) {
+        const std::uint32_t a = before[list->a(p)], b = before[list->b(p)];
+        if (a != b && !old.hand_over(a, b, 1.0, *list, p)) old.hand_over(b, a, -1.0, *list, p);
+      }
+    });
 }
 
 void list_walls(const Model& model, State& state, const std::vector<Quad>& reach, const Before& before) {
   const Spheres& s = state.spheres;
-  const auto idle = static_cast<std::uint32_t>(model.walls.size() - 1);
   std::vector<Found> found(chunks_of(s.size()));
   for_each_chunk(s.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 x = vec(reach[i]);
       const std::size_t had = found[c].partner.size();
-      const auto look = [&](std::uint32_t wall, double distance) {
-        if (distance < reach[i].w && s.velocity[i].w > 0) found[c].partner.push_back(wall);
-      };
-      for (std::uint32_t w = 0; w < idle; ++w) look(w, distance_from(model.walls[w], x));
-      if (model.solid) look(0, model.solid->distance(x));
+      if (s.velocity[i].w > 0)
+        for_each_wall_near(model, reach[i], [&](std::uint32_t wall) { found[c].partner.push_back(wall); });
       found[c].count.push_back(static_cast<std::uint32_t>(found[c].partner.size() - had));
     }
   });
-  const List old = std::move(state.walls);
-  // of a mesh container there is one wall, number 0, and any other number is none
-  List& list = state.walls = listed(found, s.size(), model, model.solid ? 1 : idle);
-  for (std::size_t p = 0; p < list.lanes(); ++p)
-    if (const auto same = find_pair(old, before[list.a(p)], list.b(p))) hand_over(old, *same, 1.0, list, p);
+  const OldLists old({std::move(state.walls)}, std::move(state.late.walls));
+  List& list = state.walls = listed(found, s.size(), model, idle_wall(model));
+  for (std::size_t p = 0; p < list.lanes(); ++p) old.hand_over(before[list.a(p)], list.b(p), 1.0, list, p);
 }
 
 /// A pair whose second sphere is another chunk's leaves its force in a slot.
@@ -234,13 +193,15 @@ void give_slots(State& state) {
   state.first_slot.assign(1, static_cast<std::uint32_t>(n));
   auto slots = static_cast<std::uint32_t>(n);
   for (std::size_t c = 0; c < chunks_of(n); ++c) {
-    const std::size_t end = state.pairs.first[std::min(n, (c + 1) * kChunk)] / 4;
-    for (std::size_t k = state.pairs.first[c * kChunk] / 4; k < end; ++k) {
-      PairBlock& pairs = state.pairs.block[k];
-      for (std::size_t l = 0; l < 4; ++l) {
-        if (pairs.b[l] / kChunk == c) continue;
-        pairs.to[l] = slots++;
-        ++state.slot_first[pairs.b[l] + 1];
+    for (List* list : {&state.pairs, &state.near}) {
+      const std::size_t end = list->first[std::min(n, (c + 1) * kChunk)] / 4;
+      for (std::size_t k = list->first[c * kChunk] / 4; k < end; ++k) {
+        PairBlock& pairs = list->block[k];
+        for (std::size_t l = 0; l < 4; ++l) {
+          if (pairs.b[l] / kChunk == c) continue;
+          pairs.to[l] = slots++;
+          ++state.slot_first[pairs.b[l] + 1];
+        }
       }
     }
     state.first_slot.push_back(slots);
@@ -248,11 +209,18 @@ void give_slots(State& state) {
   for (std::size_t i = 0; i < n; ++i) state.slot_first[i + 1] += state.slot_first[i];
   state.slot.resize(slots - n);
   std::vector<std::uint32_t> next(state.slot_first.begin(), state.slot_first.end() - 1);
-  for (const PairBlock& pairs : state.pairs.block)
-    for (std::size_t l = 0; l < 4; ++l)
-      if (pairs.to[l] != pairs.b[l]) state.slot[next[pairs.b[l]]++] = pairs.to[l];
+  for (const List* list : {&state.pairs, &state.near})
+    for (const PairBlock& pairs : list->block)
+      for (std::size_t l = 0; l < 4; ++l)
+        if (pairs.to[l] != pairs.b[l]) state.slot[next[pairs.b[l]]++] = pairs.to[l];
   s.force.resize(slots);
   s.twist.resize(slots);
+}
+
+void adapt_flight(State& state) {
+  const double near = static_cast<double>(state.near.lanes()) / static_cast<double>(state.spheres.size());
+  if (near > kManyNear) state.flight_steps = std::max(kHorizonSteps, state.flight_steps / 1.5);
+  if (near < kFewNear) state.flight_steps = std::min(kMostFlightSteps, state.flight_steps * 1.25);
 }
 
 }  // namespace
@@ -272,6 +240,7 @@ void settle_accounts(State& state) {
 
 void feed(const Model& model, State& state, Feeder& feeder) {
   if (state.time + 0.5 * model.step < feeder.next_time()) return;
+  finish_kick(model, state);
   const Spheres& s = state.spheres;
   double surface = 0;
   for (std::size_t i = 0; i < s.size(); ++i)
@@ -282,8 +251,20 @@ void feed(const Model& model, State& state, Feeder& feeder) {
   if (feeder.waiting()) state.waited = 1;
 }
 
+void give_margin(const Model& model, State& state, std::size_t i) {
+  Spheres& s = state.spheres;
+  const Quad& x = s.place[i];
+  const double steps = vec(s.force[i]).isZero(0) ? state.flight_steps : kHorizonSteps;
+  const double margin = model.skin * x.w + steps * model.step * vec(s.velocity[i]).norm();
+  s.listed_at[i] = {x.x, x.y, x.z, margin * margin};
+}
+
 void find_pairs(const Model& model, State& state) {
-  if (!state.search_due) return;
+  const bool strayed = std::count(state.strayed.begin(), state.strayed.end(), 0) !=
+                       static_cast<std::ptrdiff_t>(state.strayed.size());
+  if (!state.search_due && !strayed) return;
+  finish_kick(model, state);
+  if (!state.search_due && relist(model, state)) return;
   state.search_due = 0;
   settle_accounts(state);
   Spheres& s = state.spheres;
@@ -291,16 +272,22 @@ void find_pairs(const Model& model, State& state) {
   // who has entered since the last search stands at the end, and has no springs yet
   const Before before = sort_memory(state);
   ++state.searches;
-  std::vector<Quad> reach(s.size());
+  Late& late = state.late;
+  late.reach.resize(s.size());
   for (std::size_t i = 0; i < s.size(); ++i) {
-    const double margin = model.skin * s.place[i].w + kHorizonSteps * model.step * vec(s.velocity[i]).norm();
-    s.listed_at[i] = {s.place[i].x, s.place[i].y, s.place[i].z, margin * margin};
-    reach[i] = {s.place[i].x, s.place[i].y, s.place[i].z, s.place[i].w + margin};
+    give_margin(model, state, i);
+    late.reach[i] = ball_of(s, i);
   }
-  list_pairs(model, state, reach, before);
-  list_walls(model, state, reach, before);
+  late.grid = std::make_shared<LevelGrid>(late.reach);
+  list_pairs(model, state, *late.grid, before);
+  list_walls(model, state, late.reach, before);
   give_slots(state);
-  state.tally.assign(chunks_of(s.size()), SphereTally{});
+  adapt_flight(state);
+  late.pairs = {}, late.walls = {};
+  late.moved.clear();
+  late.has_moved.assign(s.size(), 0);
+  state.strayed.assign(chunks_of(s.size()), 0);
+  state.tally.assign(chunks_of(s.size()) + 1, SphereTally{});  // the last one is that of the late pairs
 }
 
 }  // namespace packbed::spheres

@@ -1,7 +1,6 @@
 #include "packers/spheres/step.hpp"
 
 #include <algorithm>
-#include <atomic>
 
 #include "math/clock.hpp"
 #include "math/simd.hpp"
@@ -28,7 +27,8 @@ void step(const Model& model, State& state, Feeder& feeder, PhaseTimes& times) {
   find_pairs(model, state), add_phase(times[kFindPairs], last);
   model.gear ? predict(model, state) : kick_drift(model, state), add_phase(times[kKickDrift], last);
   touch(model, state), add_phase(times[kTouch], last);
-  model.gear ? correct(model, state) : gather_kick(model, state), add_phase(times[kGatherKick], last);
+  if (model.gear) correct(model, state), add_phase(times[kFinishKick], last);
+  state.kick_due = !model.gear;
   rest(model, state, feeder), add_phase(times[kRest], last);
 }
 
@@ -36,64 +36,70 @@ SphereView view_of(Spheres& s) {
   return {s.place.data(), s.velocity.data(), s.spin.data(), s.force.data(), s.twist.data()};
 }
 
-PACKBED_WIDE bool kick_and_drift(const Model& model, Spheres& s, std::size_t begin, std::size_t end) {
-  const double step = model.step, half = 0.5 * step;
-  const Four gravity = four_of(model.gravity);
-  bool left_margin = false;
-  for (std::size_t i = begin; i < end; ++i) {
-    const Four inverse_mass = spread_w(s.velocity[i]);
-    const Four kick = half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
-    four(s.velocity[i]) += kick;
-    four(s.place[i]) += step * without_w(s.velocity[i]);
-    if (model.turns) four(s.spin[i]) += half * turn_of(s, i);
-    left_margin |= way_from(s.place[i], s.listed_at[i]) > s.listed_at[i].w;
-  }
-  return left_margin;
+/// Half a step of velocity and spin, by forces that are whole.
+PACKBED_INLINE void kick(const Model& model, const Four& gravity, Spheres& s, std::size_t i) {
+  const double half = 0.5 * model.step;
+  const Four inverse_mass = spread_w(s.velocity[i]);
+  four(s.velocity[i]) += half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
+  if (model.turns) four(s.spin[i]) += half * turn_of(s, i);
 }
 
-PACKBED_WIDE void gather_and_kick(const Model& model, State& state, std::size_t begin, std::size_t end) {
+/// The second half of the kick of a step.
+PACKBED_INLINE void gather_and_kick(const Model& model, const Four& gravity, State& state, std::size_t i) {
+  gather_slots(state, i, state.spheres.force);
+  if (model.turns) gather_slots(state, i, state.spheres.twist);
+  kick(model, gravity, state.spheres, i);
+}
+
+PACKBED_WIDE bool kick_and_drift(const Model& model, State& state, std::size_t begin, std::size_t end) {
   Spheres& s = state.spheres;
-  const double half = 0.5 * model.step;
   const Four gravity = four_of(model.gravity);
+  bool strayed = false;
   for (std::size_t i = begin; i < end; ++i) {
-    gather_slots(state, i, s.force);
-    const Four inverse_mass = spread_w(s.velocity[i]);
-    four(s.velocity[i]) += half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
-    if (!model.turns) continue;
-    gather_slots(state, i, s.twist);
-    four(s.spin[i]) += half * turn_of(s, i);
+    if (state.kick_due) gather_and_kick(model, gravity, state, i);
+    kick(model, gravity, s, i);
+    four(s.place[i]) += model.step * without_w(s.velocity[i]);
+    clear_forces(model, s, i);
+    strayed |= has_strayed(s, i);
   }
+  return strayed;
+}
+
+PACKBED_WIDE void finish_kicks(const Model& model, State& state, std::size_t begin, std::size_t end) {
+  const Four gravity = four_of(model.gravity);
+  for (std::size_t i = begin; i < end; ++i) gather_and_kick(model, gravity, state, i);
 }
 
 void kick_drift(const Model& model, State& state) {
-  std::atomic<bool> left_margin{false};
-  for_each_chunk(state.spheres.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    if (kick_and_drift(model, state.spheres, begin, end)) left_margin.store(true, std::memory_order_relaxed);
+  for_each_chunk(state.spheres.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+    state.strayed[c] = kick_and_drift(model, state, begin, end);
   });
-  end_of_drift(model, state, left_margin);
+  state.kick_due = 0;
+  end_of_drift(model, state);
 }
 
-std::vector<Quad> sides_of(const Model& model, const State& state, std::size_t from, std::size_t to) {
-  const Spheres& s = state.spheres;
+std::vector<Quad> sides_of(const Model& model, const Spheres& s, const List& list, std::size_t from,
+                           std::size_t to) {
   std::vector<Quad> sides;
   for (std::size_t p = 4 * from; p < 4 * to; ++p) {
-    const std::uint32_t i = state.walls.a(p);
+    const std::uint32_t i = list.a(p);
     const Quad& x = s.place[i];
     Vec3 normal = Vec3::UnitZ();
     double distance = -kNoWall.w;
-    if (state.walls.b(p) == 0) model.solid->side(x.w, Vec3(x.x, x.y, x.z), normal, distance);
+    if (list.b(p) == 0) model.solid->side(x.w, Vec3(x.x, x.y, x.z), normal, distance);
     sides.push_back({normal.x(), normal.y(), normal.z(), distance});
   }
   return sides;
 }
 
-void touch_container_walls(const Model& model, State& state, const SphereView& view, double step,
-                           std::size_t from, std::size_t to, SphereTally& tally, SphereContact* contacts) {
-  const std::span<const PairBlock> blocks = blocks_of(state.walls, from, to);
-  const SphereMemory memory = state.walls.memory_from(from);
+void touch_container_walls(const Model& model, Spheres& spheres, List& list, double step, std::size_t from,
+                           std::size_t to, SphereTally& tally, SphereContact* contacts) {
+  const SphereView view = view_of(spheres);
+  const std::span<const PairBlock> blocks = blocks_of(list, from, to);
+  const SphereMemory memory = list.memory_from(from);
   if (model.solid)
-    touch_given_walls(model.wall_law, view, step, sides_of(model, state, from, to), blocks, memory, tally,
-                      contacts);
+    touch_given_walls(model.wall_law, view, step, sides_of(model, spheres, list, from, to), blocks, memory,
+                      tally, contacts);
   else
     touch_walls(model.wall_law, view, step, model.walls, blocks, memory, tally, contacts);
 }
@@ -102,29 +108,35 @@ void touch(const Model& model, State& state) {
   Spheres& s = state.spheres;
   const SphereView view = view_of(s);
   for_each_chunk(s.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
-    const auto clear = [&](std::vector<Quad>& of) {
-      std::fill(of.begin() + static_cast<std::ptrdiff_t>(begin),
-                of.begin() + static_cast<std::ptrdiff_t>(end), Quad{});
+    const auto clear = [&](std::vector<Quad>& of) {  // the slots; the spheres' own are clear since the drift
       std::fill(of.begin() + state.first_slot[c], of.begin() + state.first_slot[c + 1], Quad{});
     };
     clear(s.force);
     if (model.turns) clear(s.twist);
-    const std::size_t from = state.pairs.first[begin] / 4, to = state.pairs.first[end] / 4;
-    touch_spheres(model.pellet_law, view, model.step, blocks_of(state.pairs, from, to),
-                  state.pairs.memory_from(from), state.tally[c]);
-    touch_container_walls(model, state, view, model.step, state.walls.first[begin] / 4,
+    for (List* list : {&state.pairs, &state.near}) {
+      const std::size_t from = list->first[begin] / 4, to = list->first[end] / 4;
+      touch_spheres(model.pellet_law, view, model.step, blocks_of(*list, from, to), list->memory_from(from),
+                    state.tally[c]);
+    }
+    touch_container_walls(model, s, state.walls, model.step, state.walls.first[begin] / 4,
                           state.walls.first[end] / 4, state.tally[c]);
   });
+  List &late = state.late.pairs, &late_walls = state.late.walls;
+  touch_spheres(model.pellet_law, view, model.step, late.block, late.memory_from(0), state.tally.back());
+  touch_container_walls(model, s, late_walls, model.step, 0, late_walls.block.size(), state.tally.back());
 }
 
-void gather_kick(const Model& model, State& state) {
+void finish_kick(const Model& model, State& state) {
+  if (!state.kick_due) return;
+  state.kick_due = 0;
   for_each_chunk(state.spheres.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    gather_and_kick(model, state, begin, end);
+    finish_kicks(model, state, begin, end);
   });
 }
 
 void rest(const Model& model, State& state, const Feeder& feeder) {
   if (!feeder.done() || state.time - state.rest.since < model.stepping.rest_window) return;
+  finish_kick(model, state);
   const Spheres& s = state.spheres;
   RestLook look(state.rest);
   for (std::size_t i = 0; i < s.size(); ++i) {

@@ -1,0 +1,73 @@
+#include "packers/spheres/lists.hpp"
+
+#include <algorithm>
+
+namespace packbed::spheres {
+namespace {
+
+double& lane(Quad& q, std::size_t k) {
+  return k == 0 ? q.x : k == 1 ? q.y : k == 2 ? q.z : q.w;
+}
+double lane(const Quad& q, std::size_t k) {
+  return k == 0 ? q.x : k == 1 ? q.y : k == 2 ? q.z : q.w;
+}
+void copy_spring(const SpringBlock& from, std::size_t old, double sign, SpringBlock& to, std::size_t p) {
+  for (std::size_t d = 0; d < 3; ++d) lane(to.stretch[d], p) = sign * lane(from.stretch[d], old);
+  lane(to.stiffness, p) = lane(from.stiffness, old);
+}
+
+void copy_memory(const List& from, std::size_t old, double sign, List& to, std::size_t p) {
+  lane(to.dash[p / 4].drag, p % 4) = lane(from.dash[old / 4].drag, old % 4);
+  lane(to.dash[p / 4].closing, p % 4) = lane(from.dash[old / 4].closing, old % 4);
+  if (!to.slip.empty()) copy_spring(from.slip[old / 4], old % 4, sign, to.slip[p / 4], p % 4);
+  if (!to.roll.empty()) copy_spring(from.roll[old / 4], old % 4, sign, to.roll[p / 4], p % 4);
+}
+
+std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
+  return std::uint64_t{a} << 32 | b;
+}
+
+}  // namespace
+
+std::optional<std::size_t> find_pair(const List& list, std::uint32_t a, std::uint32_t b) {
+  if (a + 1 >= list.first.size()) return {};
+  for (std::size_t p = list.first[a]; p < list.first[a + 1]; ++p)
+    if (list.b(p) == b) return p;
+  return {};
+}
+
+void make_memory(const Model& model, List& list) {
+  list.dash.resize(list.block.size());
+  list.slip.resize(model.turns ? list.block.size() : 0);
+  list.roll.resize(model.rolls ? list.block.size() : 0);
+}
+
+void append(const Model& model, List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle) {
+  const std::size_t p = list.filled++;
+  if (p % 4 == 0) {
+    list.block.push_back({{a, a, a, a}, {idle, idle, idle, idle}, {idle, idle, idle, idle}});
+    make_memory(model, list);
+  }
+  PairBlock& block = list.block.back();
+  block.a[p % 4] = a;
+  block.b[p % 4] = block.to[p % 4] = b;
+}
+
+OldLists::OldLists(std::vector<List> lists, List late) : lists_(std::move(lists)), late_(std::move(late)) {
+  for (std::uint32_t p = 0; p < late_.filled; ++p) place_.push_back({key_of(late_.a(p), late_.b(p)), p});
+  std::sort(place_.begin(), place_.end());
+}
+
+bool OldLists::hand_over(std::uint32_t a, std::uint32_t b, double sign, List& to, std::size_t p) const {
+  for (const List& list : lists_)
+    if (const auto old = find_pair(list, a, b)) {
+      copy_memory(list, *old, sign, to, p);
+      return true;
+    }
+  const auto found = std::lower_bound(place_.begin(), place_.end(), std::pair{key_of(a, b), 0U});
+  if (found == place_.end() || found->first != key_of(a, b)) return false;
+  copy_memory(late_, found->second, sign, to, p);
+  return true;
+}
+
+}  // namespace packbed::spheres

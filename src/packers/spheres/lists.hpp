@@ -1,0 +1,36 @@
+#pragma once
+// Lists of pairs: looking one up, adding one, and what contacts remember handed on from old lists to new
+// ones.
+#include <optional>
+#include <utility>
+
+#include "packers/spheres/model.hpp"
+
+namespace packbed::spheres {
+
+/// Number of the pair (a, b) as a found it; nothing when it did not.
+std::optional<std::size_t> find_pair(const List& list, std::uint32_t a, std::uint32_t b);
+
+/// A new pair at the end of a list that is added to. `idle`: what lanes of no use have for b.
+void append(const Model& model, List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle);
+
+/// The lists of before a search, for what their contacts remember.
+class OldLists {
+ public:
+  /// `late` is what was added to the others afterwards.
+  OldLists(std::vector<List> lists, List late);
+
+  /// Gives pair p of `to` what the pair (a, b) remembered; `sign`: -1 when a and b have changed places. False
+  /// when there was no such pair.
+  bool hand_over(std::uint32_t a, std::uint32_t b, double sign, List& to, std::size_t p) const;
+
+ private:
+  std::vector<List> lists_;
+  List late_;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> place_;  // (a, b) and lane in late_, sorted
+};
+
+/// Room for what the contacts of a list remember.
+void make_memory(const Model& model, List& list);
+
+}  // namespace packbed::spheres

@@ -1,0 +1,41 @@
+#pragma once
+// What a search of all spheres and one of a few share.
+#include <cmath>
+
+#include "packers/spheres/chunks.hpp"
+#include "packers/spheres/lists.hpp"
+
+namespace packbed::spheres {
+
+/// Lets sphere i go on from where it is without leaving its lists.
+void give_margin(const Model& model, State& state, std::size_t i);
+
+/// Where sphere i may be until it is listed again: centre and how far its surface may reach [m].
+inline Quad ball_of(const Spheres& s, std::size_t i) {
+  const Quad& x = s.listed_at[i];
+  return {x.x, x.y, x.z, s.place[i].w + std::sqrt(x.w)};
+}
+
+/// The wall that lanes of no use name. Of a mesh container there is one wall, number 0, and any other number
+/// is none.
+inline std::uint32_t idle_wall(const Model& model) {
+  return model.solid ? 1U : static_cast<std::uint32_t>(model.walls.size() - 1);
+}
+
+/// Calls found(wall) for each wall that the ball reaches.
+template <class Found>
+void for_each_wall_near(const Model& model, const Quad& ball, const Found& found) {
+  const Vec3 x(ball.x, ball.y, ball.z);
+  for (std::uint32_t w = 0; w + 1 < model.walls.size(); ++w) {
+    const Quad& wall = model.walls[w];
+    const Vec3 normal(wall.x, wall.y, wall.z);
+    const bool round = normal.squaredNorm() < 0.5;
+    if ((round ? wall.w - std::hypot(x.x(), x.y()) : normal.dot(x) - wall.w) < ball.w) found(w);
+  }
+  if (model.solid && model.solid->distance(x) < ball.w) found(0U);
+}
+
+/// New lists for the spheres that have left their margins; false when they are too many, and nothing is done.
+bool relist(const Model& model, State& state);
+
+}  // namespace packbed::spheres
