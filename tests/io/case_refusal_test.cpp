@@ -147,7 +147,7 @@ TEST(CaseRefuses, PouringWithoutGravity) {
 
 TEST(CaseRefuses, WrongWordOfAList) {
   expect_refused("\"layers\"", "\"layer\"",
-                 {"bed.toml:14: feed.kind", "\"layers\", \"pour\", \"lattice\", \"placed\"",
+                 {"bed.toml:14: feed.kind", "\"layers\", \"pour\", \"lattice\", \"scatter\", \"placed\"",
                   "did you mean \"layers\"?"});
   expect_refused("\"tube\"", "3", {"container.shape", "found 3"});
   EXPECT_NE(refusal("method = \"digipak\"\n" + kCase).find("\"mesh\""), std::string::npos);

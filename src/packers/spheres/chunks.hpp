@@ -49,6 +49,13 @@ PACKBED_INLINE void clear_forces(const Model& model, Spheres& s, std::size_t i) 
   if (model.turns) four(s.twist[i]) = Four{};
 }
 
+/// Whether nothing touches sphere i, as far as its own chunk knows.
+PACKBED_INLINE bool is_free(const State& state, std::size_t i) {
+  const Spheres& s = state.spheres;
+  return state.slot_first[i] == state.slot_first[i + 1] &&
+         !any((four(s.force[i]) != 0.0) | (four(s.twist[i]) != 0.0));
+}
+
 /// Adds what other chunks have left for sphere i.
 PACKBED_INLINE void gather_slots(const State& state, std::size_t i, std::vector<Quad>& force) {
   for (std::uint32_t k = state.slot_first[i]; k < state.slot_first[i + 1]; ++k)

@@ -15,10 +15,10 @@ namespace {
 // A sphere may go this many steps at its present speed before it is listed anew: rarer searches, longer
 // lists. Around one that flies there may be much room, and then more is better.
 constexpr double kHorizonSteps = 60, kMostFlightSteps = 2000;
-// Pairs that do not touch, over the spheres, between which the flight steps are left as they are.
-constexpr double kFewNear = 1, kManyNear = 2;
+// Pairs of flying spheres over their number, between which the flight steps are left as they are.
+constexpr double kFewNear = 0.2, kManyNear = 0.4;
 // Searches between two sorts of the memory.
-constexpr std::int64_t kSortEvery = 32;
+constexpr std::int64_t kSortEvery = 4;
 // What moves faster is not part of the bed's surface [m/s].
 constexpr double kSurfaceSpeed = 0.2;
 
@@ -218,7 +218,13 @@ void give_slots(State& state) {
 }
 
 void adapt_flight(State& state) {
-  const double near = static_cast<double>(state.near.lanes()) / static_cast<double>(state.spheres.size());
+  const std::vector<Quad>& force = state.spheres.force;
+  const auto flies = [&](std::uint32_t i) { return vec(force[i]).isZero(0); };
+  std::size_t pairs = 0, flying = 1;
+  for (std::uint32_t i = 0; i < state.spheres.size(); ++i) flying += flies(i);
+  for (std::size_t p = 0; p < state.near.lanes(); ++p)
+    pairs += flies(state.near.a(p)) || flies(state.near.b(p));
+  const double near = static_cast<double>(pairs) / static_cast<double>(flying);
   if (near > kManyNear) state.flight_steps = std::max(kHorizonSteps, state.flight_steps / 1.5);
   if (near < kFewNear) state.flight_steps = std::min(kMostFlightSteps, state.flight_steps * 1.25);
 }

@@ -54,12 +54,19 @@ PACKBED_INLINE void gather_and_kick(const Model& model, const Four& gravity, Sta
 PACKBED_WIDE bool kick_and_drift(const Model& model, State& state, std::size_t begin, std::size_t end) {
   Spheres& s = state.spheres;
   const Four gravity = four_of(model.gravity);
+  const double half = 0.5 * model.step;
   bool strayed = false;
   for (std::size_t i = begin; i < end; ++i) {
-    if (state.kick_due) gather_and_kick(model, gravity, state, i);
-    kick(model, gravity, s, i);
+    if (is_free(state, i)) {  // what flies does without spin and forces, which need not be fetched
+      const Four fall = spread_w(s.velocity[i]) > 0.0 ? half * gravity : Four{};
+      if (state.kick_due) four(s.velocity[i]) += fall;
+      four(s.velocity[i]) += fall;
+    } else {
+      if (state.kick_due) gather_and_kick(model, gravity, state, i);
+      kick(model, gravity, s, i);
+      clear_forces(model, s, i);
+    }
     four(s.place[i]) += model.step * without_w(s.velocity[i]);
-    clear_forces(model, s, i);
     strayed |= has_strayed(s, i);
   }
   return strayed;
