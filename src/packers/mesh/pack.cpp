@@ -48,7 +48,9 @@ PackResult pack_mesh(const Scene& scene, const Watch& watch, std::span<const std
   if (!bytes.empty()) restore(bytes, state, feeder);
   PhaseTimes times{};
   PackResult result;
-  if (bytes.empty() && scene.feed.kind == FeedKind::placed) begin(model, state, feeder);
+  const FeedKind kind = scene.feed.kind;
+  // what can only be refused once it is tried is tried before there is a result folder
+  if (bytes.empty() && (kind == FeedKind::placed || kind == FeedKind::scatter)) begin(model, state, feeder);
   watcher.begin(result.record);
   Run run{model, state, feeder};
   while (!finished(model, state, feeder) && !result.stopped) {

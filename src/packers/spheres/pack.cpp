@@ -39,6 +39,8 @@ PackResult pack_spheres(const Scene& scene, const Watch& watch, std::span<const 
   Feeder feeder(scene);
   State state;
   if (!bytes.empty()) restore(bytes, state, feeder);
+  // who is there from the start enters before there is a result folder: a cloud may find no room
+  if (bytes.empty()) feed(model, state, feeder);
   PackResult result;
   RunRecord& record = result.record;
   watcher.begin(record);
