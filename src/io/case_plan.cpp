@@ -120,9 +120,7 @@ struct Expected {
 double impact_speed(const Scene& s) {
   const double g = s.gravity.norm();
   double speed = 0;
-  if (s.feed.kind != FeedKind::placed && enters_at_once(s.feed.kind)) return landing_speed(s);
-  if (s.feed.kind != FeedKind::placed)
-    return std::sqrt(2 * g * s.feed.drop_height + s.feed.speed * s.feed.speed);
+  if (s.feed.kind != FeedKind::placed) return landing_speed(s);
   for (const PlacedPellet& p : s.feed.placed)
     speed = std::max(speed, std::sqrt(p.velocity.squaredNorm() + 2 * g * std::max(0.0, p.pose.position.z())));
   return speed;

@@ -92,16 +92,18 @@ PACKBED_INLINE FourQuads turned(const Four& a, const Four& b, const Four& c, con
       __builtin_shufflevector(ab_xz, cd_xz, 2, 3, 6, 7), __builtin_shufflevector(ab_yw, cd_yw, 2, 3, 6, 7)};
 }
 
+/// Two numbers, one after the other in memory, from each of two places.
+PACKBED_INLINE Four joined(const double& low, const double& high) {
+  using Two = double __attribute__((vector_size(16)));
+  return __builtin_shufflevector(reinterpret_cast<const Two&>(low), reinterpret_cast<const Two&>(high), 0, 1,
+                                 2, 3);
+}
+
 /// The same from memory: half as many shuffles, as the halves of a vector can be loaded where they are
 /// wanted.
 PACKBED_INLINE FourQuads turned(const Quad& a, const Quad& b, const Quad& c, const Quad& d) {
-  using Two = double __attribute__((vector_size(16)));
-  const auto halves = [](const double& low, const double& high) __attribute__((always_inline)) {
-    return __builtin_shufflevector(reinterpret_cast<const Two&>(low), reinterpret_cast<const Two&>(high), 0,
-                                   1, 2, 3);
-  };
-  const Four ac_xy = halves(a.x, c.x), bd_xy = halves(b.x, d.x);
-  const Four ac_zw = halves(a.z, c.z), bd_zw = halves(b.z, d.z);
+  const Four ac_xy = joined(a.x, c.x), bd_xy = joined(b.x, d.x);
+  const Four ac_zw = joined(a.z, c.z), bd_zw = joined(b.z, d.z);
   return {
       __builtin_shufflevector(ac_xy, bd_xy, 0, 4, 2, 6), __builtin_shufflevector(ac_xy, bd_xy, 1, 5, 3, 7),
       __builtin_shufflevector(ac_zw, bd_zw, 0, 4, 2, 6), __builtin_shufflevector(ac_zw, bd_zw, 1, 5, 3, 7)};

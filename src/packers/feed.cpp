@@ -215,7 +215,8 @@ struct Feeder::Plan {
   /// So high that the bounding spheres fill the share of the cloud that the case asks for.
   double height_of_cloud() const {
     double cubes = 0;
-    for (std::uint32_t id = 0; id < count_at_once(); ++id) cubes += std::pow(reach_of(id), 3);
+    const std::size_t count = count_at_once();
+    for (std::uint32_t id = 0; id < count; ++id) cubes += std::pow(reach_of(id), 3);
     const Vec2 half = rectangle() + Vec2::Constant(radius);
     const double section = feeds_rectangle() ? 4 * half.x() * half.y() : kPi * half.x() * half.x();
     return std::max(2 * radius, 4.0 / 3.0 * kPi * cubes / (section * scene.feed.cloud_density));

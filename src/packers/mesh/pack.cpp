@@ -48,9 +48,8 @@ PackResult pack_mesh(const Scene& scene, const Watch& watch, std::span<const std
   if (!bytes.empty()) restore(bytes, state, feeder);
   PhaseTimes times{};
   PackResult result;
-  const FeedKind kind = scene.feed.kind;
-  // what can only be refused once it is tried is tried before there is a result folder
-  if (bytes.empty() && (kind == FeedKind::placed || kind == FeedKind::scatter)) begin(model, state, feeder);
+  // who is there from the start enters before there is a result folder: a cloud may find no room
+  if (bytes.empty() && enters_at_once(scene.feed.kind)) begin(model, state, feeder);
   watcher.begin(result.record);
   Run run{model, state, feeder};
   while (!finished(model, state, feeder) && !result.stopped) {

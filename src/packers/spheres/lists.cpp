@@ -42,12 +42,9 @@ void make_memory(const Model& model, List& list) {
   list.roll.resize(model.rolls ? list.block.size() : 0);
 }
 
-void append(const Model& model, List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle) {
+void append(List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle) {
   const std::size_t p = list.filled++;
-  if (p % 4 == 0) {
-    list.block.push_back({{a, a, a, a}, {idle, idle, idle, idle}, {idle, idle, idle, idle}});
-    make_memory(model, list);
-  }
+  if (p % 4 == 0) list.block.push_back({{a, a, a, a}, {idle, idle, idle, idle}, {idle, idle, idle, idle}});
   PairBlock& block = list.block.back();
   block.a[p % 4] = a;
   block.b[p % 4] = block.to[p % 4] = b;

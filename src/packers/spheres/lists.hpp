@@ -11,8 +11,8 @@ namespace packbed::spheres {
 /// Number of the pair (a, b) as a found it; nothing when it did not.
 std::optional<std::size_t> find_pair(const List& list, std::uint32_t a, std::uint32_t b);
 
-/// A new pair at the end of a list that is added to. `idle`: what lanes of no use have for b.
-void append(const Model& model, List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle);
+/// A new pair at the end; make_memory afterwards. `idle`: what lanes of no use have for b.
+void append(List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle);
 
 /// The lists of before a search, for what their contacts remember.
 class OldLists {

@@ -70,17 +70,20 @@ inline std::size_t chunks_of(std::size_t spheres) {
 }
 
 /// Pairs in the order of the spheres that found them: those of sphere i are numbers first[i] to first[i + 1].
-/// A chunk begins with a new block of four; lanes that are left over at its end are of no use.
+/// A chunk begins with a new block of four; lanes that are left over at its end are of no use. Late lists are
+/// in the order in which pairs were found, without `first`.
 struct List {
   std::vector<PairBlock> block;
   std::vector<std::uint32_t> first;
   std::vector<SpringBlock> slip, roll;  // empty without friction, without rolling friction
   std::vector<DashBlock> dash;
-  std::uint32_t filled = 0;  // lanes in use, of a list that is added to
+  std::uint32_t filled = 0;  // lanes; of a late list those in use
 
   std::uint32_t a(std::size_t pair) const { return block[pair / 4].a[pair % 4]; }
   std::uint32_t b(std::size_t pair) const { return block[pair / 4].b[pair % 4]; }
   std::size_t lanes() const { return 4 * block.size(); }
+  /// The block that the pairs of a chunk's first sphere begin with; of the number of spheres: the end.
+  std::size_t block_of(std::size_t sphere) const { return first[sphere] / 4; }
   SphereMemory memory_from(std::size_t block_) {
     return {slip.empty() ? nullptr : slip.data() + block_, roll.empty() ? nullptr : roll.data() + block_,
             dash.data() + block_};
@@ -89,9 +92,8 @@ struct List {
 
 /// What has changed since the last search.
 struct Late {
-  List pairs, walls;                      // what is in no other list; `first` is empty
+  List pairs, walls;                      // what is in no other list
   std::vector<std::uint32_t> moved;       // the spheres that were listed anew
-  std::vector<std::uint8_t> has_moved;    // of each sphere
   std::vector<Quad> reach;                // of each sphere at the search: centre [m], radius and margin [m]
   std::shared_ptr<const LevelGrid> grid;  // of these, made when it is needed; in no checkpoint
 };

@@ -24,16 +24,16 @@ std::vector<std::uint32_t> strays_of(const Spheres& s, const std::vector<std::ui
   return strays;
 }
 
-bool meet(const Quad& a, const Quad& b) {
-  const double reach = a.w + b.w;
-  return way_from(a, b) < reach * reach;
+/// Whether sphere i has been listed anew since the search.
+bool has_moved(const State& state, std::uint32_t i) {
+  return way_from(state.late.reach[i], state.spheres.listed_at[i]) > 0;
 }
 
 bool holds(const std::vector<std::uint32_t>& values, std::uint32_t value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-void list_partners(const Model& model, State& state, std::uint32_t i) {
+void list_partners(State& state, std::uint32_t i) {
   const Spheres& s = state.spheres;
   Late& late = state.late;
   std::vector<std::uint32_t> had;
@@ -45,12 +45,12 @@ void list_partners(const Model& model, State& state, std::uint32_t i) {
     if (j == i || !(s.velocity[i].w > 0 || s.velocity[j].w > 0)) return;
     const auto lists = [&](const List& list) { return find_pair(list, i, j) || find_pair(list, j, i); };
     if (holds(had, j) || lists(state.pairs) || lists(state.near)) return;
-    append(model, late.pairs, i, j, i);
+    append(late.pairs, i, j, i);
     had.push_back(j);
   };
   const Quad ball = ball_of(s, i);
   late.grid->for_each_within(ball, [&](std::uint32_t j) {
-    if (!late.has_moved[j]) consider(j);
+    if (!has_moved(state, j)) consider(j);
   });
   for (std::uint32_t j : late.moved)
     if (meet(ball, ball_of(s, j))) consider(j);
@@ -62,7 +62,7 @@ void list_walls(const Model& model, State& state, std::uint32_t i) {
     if (find_pair(state.walls, i, wall)) return;
     for (std::size_t p = 0; p < late.filled; ++p)
       if (late.a(p) == i && late.b(p) == wall) return;
-    append(model, late, i, wall, idle_wall(model));
+    append(late, i, wall, idle_wall(model));
   });
 }
 
@@ -74,11 +74,11 @@ bool relist(const Model& model, State& state) {
   if (late.moved.size() + strays.size() > state.spheres.size() / kMovedShare) return false;
   if (!late.grid) late.grid = std::make_shared<LevelGrid>(late.reach);
   for (std::uint32_t i : strays) {
+    if (!has_moved(state, i)) late.moved.push_back(i);
     give_margin(model, state, i);
-    if (!late.has_moved[i]) late.moved.push_back(i);
-    late.has_moved[i] = 1;
   }
-  for (std::uint32_t i : strays) list_partners(model, state, i), list_walls(model, state, i);
+  for (std::uint32_t i : strays) list_partners(state, i), list_walls(model, state, i);
+  make_memory(model, late.pairs), make_memory(model, late.walls);
   std::fill(state.strayed.begin(), state.strayed.end(), std::uint8_t{0});
   state.relisted += static_cast<std::int64_t>(strays.size());
   return true;

@@ -121,21 +121,14 @@ List listed(const std::vector<Found>& found, std::size_t spheres, const Model& m
   List list;
   list.first.push_back(0);
   for (std::size_t c = 0; c < found.size(); ++c) {
-    const auto begin = static_cast<std::uint32_t>(c * kChunk);
-    std::size_t k = 0, pairs = list.first.back();
-    const auto put = [&](std::uint32_t a, std::uint32_t b) {
-      if (pairs % 4 == 0) list.block.emplace_back();
-      list.block.back().a[pairs % 4] = a;
-      list.block.back().b[pairs % 4] = list.block.back().to[pairs % 4] = b;
-      ++pairs;
-    };
+    std::size_t k = 0;
     for (std::size_t i = 0; i < found[c].count.size(); ++i) {
-      const auto a = begin + static_cast<std::uint32_t>(i);
-      for (std::uint32_t n = 0; n < found[c].count[i]; ++n) put(a, found[c].partner[k++]);
-      list.first.push_back(static_cast<std::uint32_t>(pairs));
+      const auto a = static_cast<std::uint32_t>(c * kChunk + i);
+      for (std::uint32_t n = 0; n < found[c].count[i]; ++n)
+        append(list, a, found[c].partner[k++], idle.value_or(a));
+      list.first.push_back(list.filled);
     }
-    while (pairs % 4 != 0) put(begin, idle.value_or(begin));
-    list.first.back() = static_cast<std::uint32_t>(pairs);
+    list.first.back() = list.filled = static_cast<std::uint32_t>(list.lanes());
   }
   list.first.resize(spheres + 1, list.first.back());
   make_memory(model, list);
@@ -150,8 +143,7 @@ void list_pairs(const Model& model, State& state, const LevelGrid& grid, const B
       touching[c].count.push_back(0), others[c].count.push_back(0);
       grid.for_each_near(static_cast<std::uint32_t>(i), [&](std::uint32_t j) {
         if (!(s.velocity[i].w > 0 || s.velocity[j].w > 0)) return;
-        const double reach = s.place[i].w + s.place[j].w;
-        Found& found = way_from(s.place[i], s.place[j]) < reach * reach ? touching[c] : others[c];
+        Found& found = meet(s.place[i], s.place[j]) ? touching[c] : others[c];
         found.partner.push_back(j);
         ++found.count.back();
       });
@@ -193,17 +185,14 @@ void give_slots(State& state) {
   state.first_slot.assign(1, static_cast<std::uint32_t>(n));
   auto slots = static_cast<std::uint32_t>(n);
   for (std::size_t c = 0; c < chunks_of(n); ++c) {
-    for (List* list : {&state.pairs, &state.near}) {
-      const std::size_t end = list->first[std::min(n, (c + 1) * kChunk)] / 4;
-      for (std::size_t k = list->first[c * kChunk] / 4; k < end; ++k) {
-        PairBlock& pairs = list->block[k];
-        for (std::size_t l = 0; l < 4; ++l) {
-          if (pairs.b[l] / kChunk == c) continue;
-          pairs.to[l] = slots++;
-          ++state.slot_first[pairs.b[l] + 1];
-        }
+    for (List* list : {&state.pairs, &state.near})
+      for (std::size_t p = 4 * list->block_of(c * kChunk);
+           p < 4 * list->block_of(std::min(n, (c + 1) * kChunk)); ++p) {
+        const std::uint32_t b = list->b(p);
+        if (b / kChunk == c) continue;
+        list->block[p / 4].to[p % 4] = slots++;
+        ++state.slot_first[b + 1];
       }
-    }
     state.first_slot.push_back(slots);
   }
   for (std::size_t i = 0; i < n; ++i) state.slot_first[i + 1] += state.slot_first[i];
@@ -217,13 +206,17 @@ void give_slots(State& state) {
   s.twist.resize(slots);
 }
 
+/// Whether nothing pushed sphere i at the end of the last step.
+bool flies(const Spheres& s, std::size_t i) {
+  return vec(s.force[i]).isZero(0);
+}
+
 void adapt_flight(State& state) {
-  const std::vector<Quad>& force = state.spheres.force;
-  const auto flies = [&](std::uint32_t i) { return vec(force[i]).isZero(0); };
+  const Spheres& s = state.spheres;
   std::size_t pairs = 0, flying = 1;
-  for (std::uint32_t i = 0; i < state.spheres.size(); ++i) flying += flies(i);
+  for (std::size_t i = 0; i < s.size(); ++i) flying += flies(s, i);
   for (std::size_t p = 0; p < state.near.lanes(); ++p)
-    pairs += flies(state.near.a(p)) || flies(state.near.b(p));
+    pairs += flies(s, state.near.a(p)) || flies(s, state.near.b(p));
   const double near = static_cast<double>(pairs) / static_cast<double>(flying);
   if (near > kManyNear) state.flight_steps = std::max(kHorizonSteps, state.flight_steps / 1.5);
   if (near < kFewNear) state.flight_steps = std::min(kMostFlightSteps, state.flight_steps * 1.25);
@@ -260,14 +253,13 @@ void feed(const Model& model, State& state, Feeder& feeder) {
 void give_margin(const Model& model, State& state, std::size_t i) {
   Spheres& s = state.spheres;
   const Quad& x = s.place[i];
-  const double steps = vec(s.force[i]).isZero(0) ? state.flight_steps : kHorizonSteps;
+  const double steps = flies(s, i) ? state.flight_steps : kHorizonSteps;
   const double margin = model.skin * x.w + steps * model.step * vec(s.velocity[i]).norm();
   s.listed_at[i] = {x.x, x.y, x.z, margin * margin};
 }
 
 void find_pairs(const Model& model, State& state) {
-  const bool strayed = std::count(state.strayed.begin(), state.strayed.end(), 0) !=
-                       static_cast<std::ptrdiff_t>(state.strayed.size());
+  const bool strayed = std::find(state.strayed.begin(), state.strayed.end(), 1) != state.strayed.end();
   if (!state.search_due && !strayed) return;
   finish_kick(model, state);
   if (!state.search_due && relist(model, state)) return;
@@ -291,7 +283,6 @@ void find_pairs(const Model& model, State& state) {
   adapt_flight(state);
   late.pairs = {}, late.walls = {};
   late.moved.clear();
-  late.has_moved.assign(s.size(), 0);
   state.strayed.assign(chunks_of(s.size()), 0);
   state.tally.assign(chunks_of(s.size()) + 1, SphereTally{});  // the last one is that of the late pairs
 }

@@ -16,6 +16,12 @@ inline Quad ball_of(const Spheres& s, std::size_t i) {
   return {x.x, x.y, x.z, s.place[i].w + std::sqrt(x.w)};
 }
 
+/// Whether two balls, centre and radius, share room.
+inline bool meet(const Quad& a, const Quad& b) {
+  const double reach = a.w + b.w;
+  return way_from(a, b) < reach * reach;
+}
+
 /// The wall that lanes of no use name. Of a mesh container there is one wall, number 0, and any other number
 /// is none.
 inline std::uint32_t idle_wall(const Model& model) {

@@ -36,11 +36,15 @@ SphereView view_of(Spheres& s) {
   return {s.place.data(), s.velocity.data(), s.spin.data(), s.force.data(), s.twist.data()};
 }
 
+/// What gravity does to sphere i [m/s2]: nothing when it is fixed.
+PACKBED_INLINE Four fall_of(const Four& gravity, const Spheres& s, std::size_t i) {
+  return spread_w(s.velocity[i]) > 0.0 ? gravity : Four{};
+}
+
 /// Half a step of velocity and spin, by forces that are whole.
 PACKBED_INLINE void kick(const Model& model, const Four& gravity, Spheres& s, std::size_t i) {
   const double half = 0.5 * model.step;
-  const Four inverse_mass = spread_w(s.velocity[i]);
-  four(s.velocity[i]) += half * (inverse_mass * four(s.force[i]) + (inverse_mass > 0.0 ? gravity : Four{}));
+  four(s.velocity[i]) += half * (spread_w(s.velocity[i]) * four(s.force[i]) + fall_of(gravity, s, i));
   if (model.turns) four(s.spin[i]) += half * turn_of(s, i);
 }
 
@@ -55,14 +59,15 @@ PACKBED_WIDE bool kick_and_drift(const Model& model, State& state, std::size_t b
   Spheres& s = state.spheres;
   const Four gravity = four_of(model.gravity);
   const double half = 0.5 * model.step;
+  const bool kick_due = state.kick_due;
   bool strayed = false;
   for (std::size_t i = begin; i < end; ++i) {
     if (is_free(state, i)) {  // what flies does without spin and forces, which need not be fetched
-      const Four fall = spread_w(s.velocity[i]) > 0.0 ? half * gravity : Four{};
-      if (state.kick_due) four(s.velocity[i]) += fall;
+      const Four fall = half * fall_of(gravity, s, i);
+      if (kick_due) four(s.velocity[i]) += fall;
       four(s.velocity[i]) += fall;
     } else {
-      if (state.kick_due) gather_and_kick(model, gravity, state, i);
+      if (kick_due) gather_and_kick(model, gravity, state, i);
       kick(model, gravity, s, i);
       clear_forces(model, s, i);
     }
@@ -121,12 +126,12 @@ void touch(const Model& model, State& state) {
     clear(s.force);
     if (model.turns) clear(s.twist);
     for (List* list : {&state.pairs, &state.near}) {
-      const std::size_t from = list->first[begin] / 4, to = list->first[end] / 4;
+      const std::size_t from = list->block_of(begin), to = list->block_of(end);
       touch_spheres(model.pellet_law, view, model.step, blocks_of(*list, from, to), list->memory_from(from),
                     state.tally[c]);
     }
-    touch_container_walls(model, s, state.walls, model.step, state.walls.first[begin] / 4,
-                          state.walls.first[end] / 4, state.tally[c]);
+    touch_container_walls(model, s, state.walls, model.step, state.walls.block_of(begin),
+                          state.walls.block_of(end), state.tally[c]);
   });
   List &late = state.late.pairs, &late_walls = state.late.walls;
   touch_spheres(model.pellet_law, view, model.step, late.block, late.memory_from(0), state.tally.back());
