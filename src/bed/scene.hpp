@@ -91,6 +91,8 @@ struct Stepping {
   double rest_speed = 1e-3;  // mean kinetic speed under which a bed may be called at rest [m/s]
   double rest_force = 5e-2;  // largest mean unbalanced force, fraction of the weight
   double rest_drift = 4e-3;  // largest displacement over rest_window, fraction of the pellet size
+  double rest_rollers =
+      1e-3;  // share of the pellets that a bed at rest is not asked about: those that drift most
   double rest_window = 0.02;  // [s]
   double max_time = 60;       // simulated time after which the run gives up waiting for rest [s]
   double duration = 0;        // run exactly so long, whatever happens [s]; 0: until at rest

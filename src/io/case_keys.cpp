@@ -258,6 +258,10 @@ void stepping_keys(Fields& f, CaseRecord& record) {
           .meaning = "largest displacement over rest_window of a bed at rest, fraction of the pellet's size",
           .range = above_zero_to(1)},
          r.rest_drift);
+  f.real({.name = "rest_rollers",
+          .meaning = "share of the pellets that may roll on in a bed at rest",
+          .range = between(0, 0.1)},
+         r.rest_rollers);
   f.real({.name = "rest_window",
           .meaning = "time that rest_drift is watched over",
           .dimension = D::time,

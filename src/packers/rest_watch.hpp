@@ -14,12 +14,14 @@ struct RestWatch {
   std::uint8_t at_rest = 0;
   double speed = 0, force = 0, drift = 0;  // found at its end: [m/s], fraction of the weight, of the size
   std::int32_t rollers = 0;                // pellets that drifted by more than the limit
+  std::uint8_t last_watch = 0;  // windows so far with nobody asleep, to see whether it stays at rest
 };
 
 /// Names every member once, for checkpoints.
 template <class Archive, class Rest>
 void visit_rest(Archive& io, Rest& r) {
-  io(r.since), io(r.anchor), io(r.at_rest), io(r.speed), io(r.force), io(r.drift), io(r.rollers);
+  io(r.since), io(r.anchor), io(r.at_rest), io(r.speed), io(r.force), io(r.drift), io(r.rollers),
+      io(r.last_watch);
 }
 
 /// The questions at the end of a window.
@@ -35,8 +37,14 @@ class RestLook {
 
  private:
   RestWatch& watch_;
-  double speed2_ = 0, unbalanced_ = 0;
-  std::vector<double> drifts_;
+  struct Pellet {
+    double drift, speed2, unbalanced;
+  };
+  std::vector<Pellet> pellets_;
 };
+
+/// Rest found with sleepers is not yet rest: true when all have to wake now, and the same questions will be
+/// asked over the next windows. If one pellet rolls on through all of them, the others may sleep again.
+bool ask_once_more(RestWatch& watch);
 
 }  // namespace packbed

@@ -12,15 +12,17 @@ class Sleep : public testing::TestWithParam<std::string> {
   PackResult run(double aside, bool sleep) const {
     Scene s;
     s.method = GetParam();
-    s.pellets = {{test::cylinder(4e-3, 3e-3), 1000, 1}};
+    const bool spheres = s.method == "spheres";
+    s.pellets = {{spheres ? make_sphere("ball", 2e-3) : test::cylinder(4e-3, 3e-3), 1000, 1}};
     s.container = make_tube("tube", 40e-3, 60e-3);
     s.lattice.voxel = s.analysis.voxel = 0.2e-3;
     for (ContactLaw* law : {&s.pellet_contact, &s.wall_contact}) {
       law->friction = law->damping_ratio = 0.4;
       law->stiffness = 5e3;
+      if (spheres) law->rolling_friction = 0.1;
     }
     PlacedPellet lies, comes;
-    lies.pose.position = {0, 0, 1.55e-3};
+    lies.pose.position = {0, 0, spheres ? 2.01e-3 : 1.55e-3};
     comes.pose.position = {-17e-3, aside, 13e-3};
     comes.velocity = {0.3, 0, 0};
     s.feed.kind = FeedKind::placed;
@@ -48,7 +50,7 @@ TEST_P(Sleep, WhatIsHitIsPushedAsFarAsIfAwake) {
   EXPECT_NEAR(slept, awake, 0.08 * awake);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Sleep, testing::Values("mesh", "digidem"),
+INSTANTIATE_TEST_SUITE_P(Methods, Sleep, testing::Values("mesh", "digidem", "spheres"),
                          [](const auto& p) { return p.param; });
 
 }  // namespace

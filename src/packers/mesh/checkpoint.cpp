@@ -5,7 +5,7 @@
 namespace packbed::mesh {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'0000000a;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'0000000b;  // changes with any change of State
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>
@@ -24,7 +24,7 @@ void visit(Archive& io, S& s) {
   io(s.awake), io(s.next_landing), io(s.search_due);
   visit_rest(io, s.rest);
   visit_shake(io, s.shake);
-  io(s.last_watch), io(s.waited), io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.ledger);
+  io(s.waited), io(s.snapshots), io(s.wall_s), io(s.cpu_s), io(s.ledger);
 }
 
 }  // namespace

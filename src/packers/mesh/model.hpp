@@ -154,7 +154,6 @@ struct State {
   std::uint8_t search_due = 1;
   RestWatch rest;
   ShakeState shake;
-  std::uint8_t last_watch = 0;   // windows so far with everything awake, to see whether it stays at rest
   std::uint8_t waited = 0;       // feeding has had to wait for room
   std::int64_t snapshots = 0;    // taken so far
   double wall_s = 0, cpu_s = 0;  // spent before the last checkpoint

@@ -34,7 +34,7 @@ struct Run {
     return snapshot_of(model, copy, pellets);
   }
   Progress progress() const {
-    return progress_of(state, model.expected_time, model.stepping, feeder, state.last_watch > 0);
+    return progress_of(state, model.expected_time, model.stepping, feeder, state.rest.last_watch > 0);
   }
 };
 

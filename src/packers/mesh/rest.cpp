@@ -4,12 +4,6 @@
 #include "packers/mesh/step.hpp"
 
 namespace packbed::mesh {
-namespace {
-
-// Windows that a bed in which all are awake is given to come to rest.
-constexpr std::uint8_t kWatchedWindows = 5;
-
-}  // namespace
 
 void rest(const Model& model, State& state, const Feeder& feeder) {
   RestWatch& watch = state.rest;
@@ -29,17 +23,7 @@ void rest(const Model& model, State& state, const Feeder& feeder) {
              b.position[i], model.size);
   }
   look.finish(model.stepping, state.time, flying);
-  if (!model.stepping.sleep) return;
-  // rest found with sleepers is not yet rest: all wake, and the same questions are asked again over the next
-  // windows; if one pellet rolls on through all of them, the others may sleep again
-  if (state.last_watch == 0 && watch.at_rest) {
-    state.last_watch = 1;
-    watch.at_rest = 0;
-    wake_all(state);
-  } else if (state.last_watch > 0 && !watch.at_rest) {
-    state.last_watch = state.last_watch < kWatchedWindows ? static_cast<std::uint8_t>(state.last_watch + 1)
-                                                          : std::uint8_t{0};
-  }
+  if (model.stepping.sleep && ask_once_more(watch)) wake_all(state);
 }
 
 }  // namespace packbed::mesh

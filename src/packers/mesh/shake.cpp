@@ -18,7 +18,7 @@ bool shake(const Scene& scene, State& state) {
     b.velocity[i] += *push;
   }
   state.search_due = 1;  // margins are for slower bodies
-  state.last_watch = 0;
+  state.rest.last_watch = 0;
   state.rest.at_rest = 0;
   state.rest.since = state.time;
   return true;

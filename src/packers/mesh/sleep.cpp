@@ -87,7 +87,7 @@ void wake_all(State& state) {
 }
 
 void sleep(const Model& model, State& state) {
-  if (!model.stepping.sleep || state.last_watch || vibrates(state.shake, state.time)) return;
+  if (!model.stepping.sleep || state.rest.last_watch || vibrates(state.shake, state.time)) return;
   Bodies& b = state.bodies;
   const double contact_time =
       kPi * std::sqrt(0.5 * model.kinds.front().mass * std::pow(model.kinds.front().smallest, 3) /

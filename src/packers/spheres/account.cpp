@@ -30,8 +30,8 @@ struct Contacts {
 };
 Contacts contacts_of(const Model& model, State& state) {
   Spheres& s = state.spheres;
-  Contacts out{joined(joined(state.pairs, state.near), state.late.pairs),
-               joined(state.walls, state.late.walls),
+  Contacts out{joined(joined(joined(state.pairs, state.near), state.late.pairs), state.still),
+               joined(joined(state.walls, state.late.walls), state.still_walls),
                {},
                {},
                {}};
@@ -65,6 +65,7 @@ Energy books_of(const Model& model, const State& state, const Contacts& contacts
   e.input = state.ledger.input;
   e.damped = state.ledger.damped;
   e.rubbed = state.ledger.rubbed;
+  e.removed = state.sleepers.removed;
   for (std::size_t i = 0; i < state.spheres.size(); ++i) {
     const PelletEnergy of = energy_of(model, state.spheres, i);
     e.kinetic += of.translation + of.rotation;
@@ -188,6 +189,8 @@ void fill_record(RunRecord& record, const Scene& scene, const Model& model, Stat
   record.counters = {
       {"touches", l.touches},
       {"mean_listed_pairs", l.listed / steps},
+      {"sleeps", state.sleepers.sleeps},
+      {"wakes", state.sleepers.wakes},
       {"searches", static_cast<double>(state.searches)},
       {"spheres_listed_between_searches", static_cast<double>(state.relisted)},
       {"most_that_block_steps_would_save", gain_of_block_steps(model, state.spheres, contacts)},

@@ -5,7 +5,7 @@
 namespace packbed::spheres {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'53000003;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'53000004;  // changes with any change of State
 
 template <class Archive, class L>
 void visit_list(Archive& io, L& list) {
@@ -23,8 +23,12 @@ void visit(Archive& io, S& s) {
   for (auto& of : s.gear.spin) io(of);
   io(s.gear.ahead), io(s.gear.spin_ahead);
   visit_list(io, s.pairs), visit_list(io, s.near), visit_list(io, s.walls);
+  visit_list(io, s.still), visit_list(io, s.still_walls);
   visit_list(io, s.late.pairs), visit_list(io, s.late.walls);
-  io(s.late.moved), io(s.late.reach);
+  io(s.late.moved), io(s.late.woken), io(s.late.reach);
+  auto& z = s.sleepers;
+  io(z.is), io(z.watch), io(z.watched), io(z.anchor), io(z.held), io(z.change), io(z.other_pairs),
+      io(z.shift), io(z.rate), io(z.count), io(z.since_search), io(z.sleeps), io(z.wakes), io(z.removed);
   io(s.slot), io(s.slot_first), io(s.first_slot), io(s.tally), io(s.kick_due), io(s.search_due),
       io(s.strayed);
   io(s.searches), io(s.relisted), io(s.flight_steps);

@@ -32,7 +32,7 @@ std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
 std::optional<std::size_t> find_pair(const List& list, std::uint32_t a, std::uint32_t b) {
   if (a + 1 >= list.first.size()) return {};
   for (std::size_t p = list.first[a]; p < list.first[a + 1]; ++p)
-    if (list.b(p) == b) return p;
+    if (list.a(p) == a && list.b(p) == b) return p;  // those of a chunk's last sphere end in lanes of no use
   return {};
 }
 
@@ -48,6 +48,14 @@ void append(List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle) {
   PairBlock& block = list.block.back();
   block.a[p % 4] = a;
   block.b[p % 4] = block.to[p % 4] = b;
+}
+
+bool take_over(List& from, std::uint32_t a, std::uint32_t b, double sign, std::uint32_t idle, List& to) {
+  const auto old = find_pair(from, a, b);
+  if (!old) return false;
+  copy_memory(from, *old, sign, to, to.filled - 1);
+  from.block[*old / 4].b[*old % 4] = idle;
+  return true;
 }
 
 OldLists::OldLists(std::vector<List> lists, List late) : lists_(std::move(lists)), late_(std::move(late)) {

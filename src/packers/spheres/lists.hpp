@@ -30,6 +30,10 @@ class OldLists {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> place_;  // (a, b) and lane in late_, sorted
 };
 
+/// Moves the pair (a, b) of `from` to the last pair of `to`, with what it remembers; `idle` takes the place
+/// of its b. False when there is no such pair.
+bool take_over(List& from, std::uint32_t a, std::uint32_t b, double sign, std::uint32_t idle, List& to);
+
 /// Room for what the contacts of a list remember.
 void make_memory(const Model& model, List& list);
 

@@ -20,6 +20,10 @@ namespace {
 // Sum of the skins of a pair over its mean radius: with less, beds that settle are searched too often, with
 // more the lists hold too much that does not touch.
 constexpr double kSkin = 0.1;
+// Length of a watch, in contact times of light contacts.
+constexpr double kWatch = 30;
+// Overlap over radius of a contact that carries a few spheres.
+constexpr double kLightOverlap = 1e-3;
 
 std::vector<Kind> make_kinds(const Scene& scene) {
   std::vector<Kind> kinds;
@@ -133,6 +137,12 @@ double shortest_contact(const Model& model, const Extremes& e, double speed) {
 
 }  // namespace
 
+double swing_of(const Model& model, double radius, double inverse_mass) {
+  const SphereLaw& law = model.pellet_law;
+  const Four slope = elastic_of(law, law.hertz, four(0.5 * radius), four(kLightOverlap * radius)).slope;
+  return std::sqrt(slope[0] * inverse_mass);
+}
+
 Model make_model(const Scene& scene) {
   Model model;
   model.kinds = make_kinds(scene);
@@ -156,6 +166,10 @@ Model make_model(const Scene& scene) {
   model.step = step_for(scene, contact, "leave the step out, or make contacts softer");
   model.skin = scene.stepping.skin > 0 ? scene.stepping.skin / e.largest : kSkin / 2;
   model.expected_time = expected_time(scene);
+  model.sleeps = scene.stepping.sleep && !model.gear;
+  model.swing = swing_of(model, e.smallest, 1.0 / mass_of(e.smallest, e.density));
+  model.watch =
+      std::max<std::int64_t>(1, std::llround(kWatch * kPi * std::sqrt(0.5) / model.swing / model.step));
   return model;
 }
 

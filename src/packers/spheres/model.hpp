@@ -36,12 +36,18 @@ struct Model {
   double step = 0;                    // [s]
   double smallest_stiffness = 0;      // dF/ddelta of two of the smallest spheres in the hardest impact [N/m]
   double skin = 0;                    // of the lists, fraction of the radius
+  bool sleeps = false;                // what has settled stands still
+  double swing = 0;                   // see swing_of, of the smallest sphere [rad/s]
+  std::int64_t watch = 1;             // steps over which it must stay to fall asleep
   Stepping stepping;
   double expected_time = 0;  // of the whole run, for the progress line [s]
 };
 
 /// Throws InputError for a scene that cannot be packed as given.
 Model make_model(const Scene& scene);
+
+/// How fast a sphere swings on a light contact with its like [rad/s].
+double swing_of(const Model& model, double radius, double inverse_mass);
 
 /// One entry a sphere, in memory order.
 struct Spheres {
@@ -94,8 +100,23 @@ struct List {
 struct Late {
   List pairs, walls;                      // what is in no other list
   std::vector<std::uint32_t> moved;       // the spheres that were listed anew
+  std::size_t woken = 0;                  // of sleepers
   std::vector<Quad> reach;                // of each sphere at the search: centre [m], radius and margin [m]
   std::shared_ptr<const LevelGrid> grid;  // of these, made when it is needed; in no checkpoint
+};
+
+/// One entry a sphere, in memory order; beyond `anchor` of use to sleepers only.
+struct Sleepers {
+  static constexpr std::uint8_t kAwake = 0, kInland = 1, kShore = 2, kWaking = 3;
+  std::vector<std::uint8_t> is;       // kInland: none of its pairs is listed; kShore: some are
+  std::vector<std::uint8_t> watch;    // binary logarithm of its watch over that of the smallest
+  std::vector<std::uint8_t> watched;  // since the last watch began
+  std::vector<Quad> anchor;           // centre when that began [m]
+  std::vector<Quad> held, change;     // force of the listed pairs that it is balanced with, change since [N]
+  std::vector<std::uint8_t> other_pairs;  // others are listed than `held` is of
+  std::vector<Quad> shift, rate;          // of its shadow [m], [m/s]; w: see swing_of [rad/s]
+  std::size_t count = 0, since_search = 0;
+  double sleeps = 0, wakes = 0, removed = 0;  // removed: energy [J]
 };
 
 struct State {
@@ -106,7 +127,9 @@ struct State {
   // Pairs of two spheres that touched at the last search, and that did not: blocks of these are looked at and
   // seldom more. Pairs of a sphere and a wall of the model's list.
   List pairs, near, walls;
+  List still, still_walls;  // of sleepers with sleepers and walls; outside the loops
   Late late;
+  Sleepers sleepers;
   // slots, entries of force and twist beyond the spheres: those of sphere i are slot[slot_first[i]] and on
   std::vector<std::uint32_t> slot, slot_first;
   std::vector<std::uint32_t> first_slot;  // of each chunk, which alone writes them

@@ -28,7 +28,9 @@ struct Run {
   double step_time() const { return model.step; }
   std::vector<std::byte> save() const { return spheres::save(state, feeder); }
   Snapshot snapshot(std::vector<Pellet>& pellets) const { return snapshot_of(model, state, pellets); }
-  Progress progress() const { return progress_of(state, model.expected_time, model.stepping, feeder); }
+  Progress progress() const {
+    return progress_of(state, model.expected_time, model.stepping, feeder, state.rest.last_watch > 0);
+  }
 };
 
 }  // namespace

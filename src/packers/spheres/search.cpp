@@ -7,6 +7,7 @@
 #include "math/threads.hpp"
 #include "packers/spheres/account.hpp"
 #include "packers/spheres/search.hpp"
+#include "packers/spheres/sleep.hpp"
 #include "packers/spheres/step.hpp"
 
 namespace packbed::spheres {
@@ -41,6 +42,7 @@ void enter(const Model& model, State& state, const Pellet& pellet) {
   s.spin.push_back(quad(pellet.spin, pellet.fixed ? 0.0 : 1.0 / inertia));
   s.listed_at.push_back(quad(pellet.pose.position, 0));
   state.rest.anchor.push_back(pellet.pose.position);
+  add_sleeper(model, state);
   if (pellet.fixed) return;
   state.ledger.input += 0.5 * mass * pellet.velocity.squaredNorm() +
                         0.5 * inertia * pellet.spin.squaredNorm() -
@@ -101,6 +103,9 @@ Before sort_memory(State& state) {
   reorder(s.id, order), reorder(s.kind, order), reorder(s.scale, order);
   reorder(s.place, order), reorder(s.velocity, order), reorder(s.spin, order);
   reorder(s.force, order), reorder(s.twist, order), reorder(s.listed_at, order);
+  Sleepers& z = state.sleepers;
+  for (std::vector<std::uint8_t>* of : {&z.is, &z.watch, &z.watched, &z.other_pairs}) reorder(*of, order);
+  for (std::vector<Quad>* of : {&z.anchor, &z.held, &z.change, &z.shift, &z.rate}) reorder(*of, order);
   if (!state.gear.spin_ahead.empty()) {
     for (std::vector<Quad>& of : state.gear.position) reorder(of, order);
     for (std::vector<Quad>& of : state.gear.spin) reorder(of, order);
@@ -137,22 +142,27 @@ List listed(const std::vector<Found>& found, std::size_t spheres, const Model& m
 
 void list_pairs(const Model& model, State& state, const LevelGrid& grid, const Before& before) {
   const Spheres& s = state.spheres;
-  std::vector<Found> touching(chunks_of(s.size())), others(touching);
+  std::vector<Found> touching(chunks_of(s.size())), others(touching), still(touching);
   for_each_chunk(s.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      touching[c].count.push_back(0), others[c].count.push_back(0);
+      for (std::vector<Found>* of : {&touching, &others, &still}) (*of)[c].count.push_back(0);
+      const auto add = [&](Found& to, std::uint32_t j) { to.partner.push_back(j), ++to.count.back(); };
       grid.for_each_near(static_cast<std::uint32_t>(i), [&](std::uint32_t j) {
         if (!(s.velocity[i].w > 0 || s.velocity[j].w > 0)) return;
-        Found& found = meet(s.place[i], s.place[j]) ? touching[c] : others[c];
-        found.partner.push_back(j);
-        ++found.count.back();
+        const bool touches = meet(s.place[i], s.place[j]);
+        if (moves(state, i) || moves(state, j))
+          add((touches ? touching : others)[c], j);
+        else if (touches)
+          add(still[c], j);
       });
     }
   });
-  const OldLists old({std::move(state.pairs), std::move(state.near)}, std::move(state.late.pairs));
+  const OldLists old({std::move(state.pairs), std::move(state.near), std::move(state.still)},
+                     std::move(state.late.pairs));
   state.pairs = listed(touching, s.size(), model, {});
   state.near = listed(others, s.size(), model, {});
-  for (List* list : {&state.pairs, &state.near})
+  state.still = listed(still, s.size(), model, {});
+  for (List* list : {&state.pairs, &state.near, &state.still})
     parallel_for(list->lanes(), 4096, [&](std::size_t from, std::size_t to) {
       for (std::size_t p = from; p < to; ++p) {
         const std::uint32_t a = before[list->a(p)], b = before[list->b(p)];
@@ -163,18 +173,24 @@ void list_pairs(const Model& model, State& state, const LevelGrid& grid, const B
 
 void list_walls(const Model& model, State& state, const std::vector<Quad>& reach, const Before& before) {
   const Spheres& s = state.spheres;
-  std::vector<Found> found(chunks_of(s.size()));
+  std::vector<Found> found(chunks_of(s.size())), still(found);
   for_each_chunk(s.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t had = found[c].partner.size();
-      if (s.velocity[i].w > 0)
-        for_each_wall_near(model, reach[i], [&](std::uint32_t wall) { found[c].partner.push_back(wall); });
-      found[c].count.push_back(static_cast<std::uint32_t>(found[c].partner.size() - had));
+      found[c].count.push_back(0), still[c].count.push_back(0);
+      if (!(s.velocity[i].w > 0)) continue;
+      Found& to = (moves(state, i) ? found : still)[c];
+      for_each_wall_near(model, reach[i], [&](std::uint32_t wall) {
+        to.partner.push_back(wall);
+        ++to.count.back();
+      });
     }
   });
-  const OldLists old({std::move(state.walls)}, std::move(state.late.walls));
-  List& list = state.walls = listed(found, s.size(), model, idle_wall(model));
-  for (std::size_t p = 0; p < list.lanes(); ++p) old.hand_over(before[list.a(p)], list.b(p), 1.0, list, p);
+  const OldLists old({std::move(state.walls), std::move(state.still_walls)}, std::move(state.late.walls));
+  state.walls = listed(found, s.size(), model, idle_wall(model));
+  state.still_walls = listed(still, s.size(), model, idle_wall(model));
+  for (List* list : {&state.walls, &state.still_walls})
+    for (std::size_t p = 0; p < list->lanes(); ++p)
+      old.hand_over(before[list->a(p)], list->b(p), 1.0, *list, p);
 }
 
 /// A pair whose second sphere is another chunk's leaves its force in a slot.
@@ -213,10 +229,11 @@ bool flies(const Spheres& s, std::size_t i) {
 
 void adapt_flight(State& state) {
   const Spheres& s = state.spheres;
+  const auto flies_ = [&](std::size_t i) { return moves(state, i) && flies(s, i); };
   std::size_t pairs = 0, flying = 1;
-  for (std::size_t i = 0; i < s.size(); ++i) flying += flies(s, i);
+  for (std::size_t i = 0; i < s.size(); ++i) flying += flies_(i);
   for (std::size_t p = 0; p < state.near.lanes(); ++p)
-    pairs += flies(s, state.near.a(p)) || flies(s, state.near.b(p));
+    pairs += flies_(state.near.a(p)) || flies_(state.near.b(p));
   const double near = static_cast<double>(pairs) / static_cast<double>(flying);
   if (near > kManyNear) state.flight_steps = std::max(kHorizonSteps, state.flight_steps / 1.5);
   if (near < kFewNear) state.flight_steps = std::min(kMostFlightSteps, state.flight_steps * 1.25);
@@ -280,9 +297,11 @@ void find_pairs(const Model& model, State& state) {
   list_pairs(model, state, *late.grid, before);
   list_walls(model, state, late.reach, before);
   give_slots(state);
+  find_shore(state);
   adapt_flight(state);
   late.pairs = {}, late.walls = {};
   late.moved.clear();
+  late.woken = 0;
   state.strayed.assign(chunks_of(s.size()), 0);
   state.tally.assign(chunks_of(s.size()) + 1, SphereTally{});  // the last one is that of the late pairs
 }

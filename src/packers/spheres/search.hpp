@@ -16,6 +16,11 @@ inline Quad ball_of(const Spheres& s, std::size_t i) {
   return {x.x, x.y, x.z, s.place[i].w + std::sqrt(x.w)};
 }
 
+/// Whether sphere i is neither fixed nor asleep.
+inline bool moves(const State& state, std::size_t i) {
+  return state.spheres.velocity[i].w > 0 && state.sleepers.is[i] == Sleepers::kAwake;
+}
+
 /// Whether two balls, centre and radius, share room.
 inline bool meet(const Quad& a, const Quad& b) {
   const double reach = a.w + b.w;
@@ -43,5 +48,7 @@ void for_each_wall_near(const Model& model, const Quad& ball, const Found& found
 
 /// New lists for the spheres that have left their margins; false when they are too many, and nothing is done.
 bool relist(const Model& model, State& state);
+/// New lists for spheres that slept and do no more, or a search for all.
+void list_woken(const Model& model, State& state, const std::vector<std::uint32_t>& woken);
 
 }  // namespace packbed::spheres

@@ -6,7 +6,8 @@
 #include "math/simd.hpp"
 #include "math/threads.hpp"
 #include "packers/run_watch.hpp"
-#include "packers/spheres/chunks.hpp"
+#include "packers/spheres/search.hpp"
+#include "packers/spheres/sleep.hpp"
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are only passed between functions that are inlined
@@ -29,6 +30,7 @@ void step(const Model& model, State& state, Feeder& feeder, PhaseTimes& times) {
   touch(model, state), add_phase(times[kTouch], last);
   if (model.gear) correct(model, state), add_phase(times[kFinishKick], last);
   state.kick_due = !model.gear;
+  sleep(model, state), add_phase(times[kSleep], last);
   rest(model, state, feeder), add_phase(times[kRest], last);
 }
 
@@ -48,10 +50,14 @@ PACKBED_INLINE void kick(const Model& model, const Four& gravity, Spheres& s, st
   if (model.turns) four(s.spin[i]) += half * turn_of(s, i);
 }
 
-/// The second half of the kick of a step.
-PACKBED_INLINE void gather_and_kick(const Model& model, const Four& gravity, State& state, std::size_t i) {
+PACKBED_INLINE void gather(const Model& model, State& state, std::size_t i) {
   gather_slots(state, i, state.spheres.force);
   if (model.turns) gather_slots(state, i, state.spheres.twist);
+}
+
+/// The second half of the kick of a step.
+PACKBED_INLINE void gather_and_kick(const Model& model, const Four& gravity, State& state, std::size_t i) {
+  gather(model, state, i);
   kick(model, gravity, state.spheres, i);
 }
 
@@ -62,6 +68,10 @@ PACKBED_WIDE bool kick_and_drift(const Model& model, State& state, std::size_t b
   const bool kick_due = state.kick_due;
   bool strayed = false;
   for (std::size_t i = begin; i < end; ++i) {
+    if (const std::uint8_t is = state.sleepers.is[i]; is != Sleepers::kAwake) {
+      if (is == Sleepers::kShore) clear_forces(model, s, i);
+      continue;
+    }
     if (is_free(state, i)) {  // what flies does without spin and forces, which need not be fetched
       const Four fall = half * fall_of(gravity, s, i);
       if (kick_due) four(s.velocity[i]) += fall;
@@ -79,7 +89,12 @@ PACKBED_WIDE bool kick_and_drift(const Model& model, State& state, std::size_t b
 
 PACKBED_WIDE void finish_kicks(const Model& model, State& state, std::size_t begin, std::size_t end) {
   const Four gravity = four_of(model.gravity);
-  for (std::size_t i = begin; i < end; ++i) gather_and_kick(model, gravity, state, i);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (state.sleepers.is[i] == Sleepers::kAwake)
+      gather_and_kick(model, gravity, state, i);
+    else
+      gather(model, state, i);
+  }
 }
 
 void kick_drift(const Model& model, State& state) {
@@ -152,15 +167,18 @@ void rest(const Model& model, State& state, const Feeder& feeder) {
   const Spheres& s = state.spheres;
   RestLook look(state.rest);
   for (std::size_t i = 0; i < s.size(); ++i) {
-    const Quad &v = s.velocity[i], &w = s.spin[i], &x = s.place[i], &f = s.force[i];
+    const Quad &v = s.velocity[i], &x = s.place[i], &f = s.force[i];
     if (!(v.w > 0)) continue;
-    const double turning = w.w > 0 ? (w.x * w.x + w.y * w.y + w.z * w.z) * v.w / w.w : 0.0;
     const double weight = model.gravity.norm() / v.w;
-    const double unbalanced = (Vec3(f.x, f.y, f.z) + model.gravity / v.w).norm() / std::max(1e-300, weight);
-    look.add(s.id[i], v.x * v.x + v.y * v.y + v.z * v.z + turning, unbalanced, Vec3(x.x, x.y, x.z),
-             2.0 * x.w);
+    // sleepers have found their balance when they fell asleep
+    const double unbalanced =
+        !moves(state, i) ? 0.0
+                         : (Vec3(f.x, f.y, f.z) + model.gravity / v.w).norm() / std::max(1e-300, weight);
+    // what spins on the spot, about the normal of its contact, does so for ever
+    look.add(s.id[i], v.x * v.x + v.y * v.y + v.z * v.z, unbalanced, Vec3(x.x, x.y, x.z), 2.0 * x.w);
   }
   look.finish(model.stepping, state.time, false);
+  if (model.sleeps && ask_once_more(state.rest)) wake_all(model, state);
 }
 
 }  // namespace packbed::spheres

@@ -8,9 +8,9 @@
 
 namespace packbed::spheres {
 
-enum Phase : std::size_t { kFeed, kFindPairs, kKickDrift, kTouch, kFinishKick, kRest, kPhases };
-inline constexpr std::array<std::string_view, kPhases> kPhaseName = {"feed",  "find_pairs",  "kick_drift",
-                                                                     "touch", "finish_kick", "rest"};
+enum Phase : std::size_t { kFeed, kFindPairs, kKickDrift, kTouch, kFinishKick, kSleep, kRest, kPhases };
+inline constexpr std::array<std::string_view, kPhases> kPhaseName = {
+    "feed", "find_pairs", "kick_drift", "touch", "finish_kick", "sleep", "rest"};
 using PhaseTimes = std::array<double, kPhases>;  // wall-clock [s]
 
 /// Velocity Verlet, or Gear's scheme, with contacts; everything else only when it is due.
@@ -27,6 +27,7 @@ void finish_kick(const Model& model, State& state);
 // In place of the two, with Gear's scheme.
 void predict(const Model& model, State& state);
 void correct(const Model& model, State& state);
+void sleep(const Model& model, State& state);
 void rest(const Model& model, State& state, const Feeder& feeder);
 
 /// Gives spheres that have entered since the last call their higher derivatives: none but gravity.
