@@ -23,9 +23,9 @@ namespace {
 constexpr std::size_t kSleptShare = 32;
 // What is out of balance by more than this share of its weight does not fall asleep: a sphere that rolls to
 // and fro in a groove stands still at each turn.
-constexpr double kUnbalanced = 0.05;
+constexpr double kUnbalanced = 0.01;
 // Change of the force of its contacts, over its weight, by which a sleeper has lost its support.
-constexpr double kLostSupport = 0.1;
+constexpr double kLostSupport = 0.05;
 
 PACKBED_INLINE double size_of(const Four& v) {
   const Four squares = v * v;
