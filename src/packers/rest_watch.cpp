@@ -6,7 +6,7 @@
 namespace packbed {
 namespace {
 
-// Windows that a bed in which all are awake is given to come to rest.
+// Windows that a bed in which all were woken is given to come to rest.
 constexpr std::uint8_t kWatchedWindows = 5;
 
 }  // namespace

@@ -14,7 +14,7 @@ struct RestWatch {
   std::uint8_t at_rest = 0;
   double speed = 0, force = 0, drift = 0;  // found at its end: [m/s], fraction of the weight, of the size
   std::int32_t rollers = 0;                // pellets that drifted by more than the limit
-  std::uint8_t last_watch = 0;  // windows so far with nobody asleep, to see whether it stays at rest
+  std::uint8_t last_watch = 0;             // windows since all were woken, to see whether it stays at rest
 };
 
 /// Names every member once, for checkpoints.

@@ -27,8 +27,8 @@ void visit(Archive& io, S& s) {
   visit_list(io, s.late.pairs), visit_list(io, s.late.walls);
   io(s.late.moved), io(s.late.woken), io(s.late.reach);
   auto& z = s.sleepers;
-  io(z.is), io(z.watch), io(z.watched), io(z.anchor), io(z.held), io(z.change), io(z.other_pairs),
-      io(z.shift), io(z.rate), io(z.count), io(z.since_search), io(z.sleeps), io(z.wakes), io(z.removed);
+  Sleepers::each_of(z, [&](auto& of) { io(of); });
+  io(z.count), io(z.since_search), io(z.sleeps), io(z.wakes), io(z.removed);
   io(s.slot), io(s.slot_first), io(s.first_slot), io(s.tally), io(s.kick_due), io(s.search_due),
       io(s.strayed);
   io(s.searches), io(s.relisted), io(s.flight_steps);

@@ -117,6 +117,13 @@ struct Sleepers {
   std::vector<Quad> shift, rate;          // of its shadow [m], [m/s]; w: see swing_of [rad/s]
   std::size_t count = 0, since_search = 0;
   double sleeps = 0, wakes = 0, removed = 0;  // removed: energy [J]
+
+  /// Calls visit with each of the vectors of z, which may be const.
+  template <class Self, class Visit>
+  static void each_of(Self& z, const Visit& visit) {
+    visit(z.is), visit(z.watch), visit(z.watched), visit(z.anchor), visit(z.held), visit(z.change);
+    visit(z.other_pairs), visit(z.shift), visit(z.rate);
+  }
 };
 
 struct State {

@@ -103,9 +103,7 @@ Before sort_memory(State& state) {
   reorder(s.id, order), reorder(s.kind, order), reorder(s.scale, order);
   reorder(s.place, order), reorder(s.velocity, order), reorder(s.spin, order);
   reorder(s.force, order), reorder(s.twist, order), reorder(s.listed_at, order);
-  Sleepers& z = state.sleepers;
-  for (std::vector<std::uint8_t>* of : {&z.is, &z.watch, &z.watched, &z.other_pairs}) reorder(*of, order);
-  for (std::vector<Quad>* of : {&z.anchor, &z.held, &z.change, &z.shift, &z.rate}) reorder(*of, order);
+  Sleepers::each_of(state.sleepers, [&](auto& of) { reorder(of, order); });
   if (!state.gear.spin_ahead.empty()) {
     for (std::vector<Quad>& of : state.gear.position) reorder(of, order);
     for (std::vector<Quad>& of : state.gear.spin) reorder(of, order);
@@ -222,18 +220,16 @@ void give_slots(State& state) {
   s.twist.resize(slots);
 }
 
-/// Whether nothing pushed sphere i at the end of the last step.
-bool flies(const Spheres& s, std::size_t i) {
-  return vec(s.force[i]).isZero(0);
+/// Whether sphere i moves and nothing pushed it at the end of the last step.
+bool flies(const State& state, std::size_t i) {
+  return moves(state, i) && vec(state.spheres.force[i]).isZero(0);
 }
 
 void adapt_flight(State& state) {
-  const Spheres& s = state.spheres;
-  const auto flies_ = [&](std::size_t i) { return moves(state, i) && flies(s, i); };
   std::size_t pairs = 0, flying = 1;
-  for (std::size_t i = 0; i < s.size(); ++i) flying += flies_(i);
+  for (std::size_t i = 0; i < state.spheres.size(); ++i) flying += flies(state, i);
   for (std::size_t p = 0; p < state.near.lanes(); ++p)
-    pairs += flies_(state.near.a(p)) || flies_(state.near.b(p));
+    pairs += flies(state, state.near.a(p)) || flies(state, state.near.b(p));
   const double near = static_cast<double>(pairs) / static_cast<double>(flying);
   if (near > kManyNear) state.flight_steps = std::max(kHorizonSteps, state.flight_steps / 1.5);
   if (near < kFewNear) state.flight_steps = std::min(kMostFlightSteps, state.flight_steps * 1.25);
@@ -270,7 +266,7 @@ void feed(const Model& model, State& state, Feeder& feeder) {
 void give_margin(const Model& model, State& state, std::size_t i) {
   Spheres& s = state.spheres;
   const Quad& x = s.place[i];
-  const double steps = flies(s, i) ? state.flight_steps : kHorizonSteps;
+  const double steps = flies(state, i) ? state.flight_steps : kHorizonSteps;
   const double margin = model.skin * x.w + steps * model.step * vec(s.velocity[i]).norm();
   s.listed_at[i] = {x.x, x.y, x.z, margin * margin};
 }

@@ -76,6 +76,7 @@ PACKBED_INLINE bool shadow_wakes(const Model& model, State& state, std::size_t i
   return size_of(four(z.shift[i])) + size_of(now) / swing > most_way(model, state, i);
 }
 
+/// True when one of these has to wake.
 PACKBED_WIDE bool step_shadows(const Model& model, State& state, std::size_t begin, std::size_t end) {
   bool any_wakes = false;
   for (std::size_t i = begin; i < end; ++i) {
@@ -85,6 +86,14 @@ PACKBED_WIDE bool step_shadows(const Model& model, State& state, std::size_t beg
     any_wakes = true;
   }
   return any_wakes;
+}
+
+bool step_all_shadows(const Model& model, State& state) {
+  std::vector<std::uint8_t> wakes(chunks_of(state.spheres.size()));
+  for_each_chunk(state.spheres.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+    wakes[c] = step_shadows(model, state, begin, end);
+  });
+  return std::find(wakes.begin(), wakes.end(), 1) != wakes.end();
 }
 
 /// It goes on as its shadow went, pushed by what is out of balance.
@@ -172,9 +181,8 @@ void add_sleeper(const Model& model, State& state) {
   Sleepers& z = state.sleepers;
   const std::size_t i = z.is.size();
   const double swing = swing_of(model, state.spheres, i);
-  z.watch.push_back(swing > 0 ? static_cast<std::uint8_t>(std::max(0.0, std::log2(model.swing / swing))) : 0);
-  for (std::vector<std::uint8_t>* of : {&z.is, &z.watched, &z.other_pairs}) of->push_back(0);
-  for (std::vector<Quad>* of : {&z.anchor, &z.held, &z.change, &z.shift, &z.rate}) of->emplace_back();
+  Sleepers::each_of(z, [](auto& of) { of.emplace_back(); });
+  if (swing > 0) z.watch[i] = static_cast<std::uint8_t>(std::max(0.0, std::log2(model.swing / swing)));
 }
 
 void find_shore(State& state) {
@@ -198,15 +206,12 @@ void wake_all(const Model& model, State& state) {
 
 void sleep(const Model& model, State& state) {
   if (!model.sleeps) return;
-  const bool watch_ends = state.steps % model.watch == 0;
-  std::vector<std::uint8_t> wakes(chunks_of(state.spheres.size()));
-  if (state.sleepers.count > 0)
-    for_each_chunk(state.spheres.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
-      wakes[c] = step_shadows(model, state, begin, end);
-    });
-  if (watch_ends) end_watches(model, state);
-  if (watch_ends || std::find(wakes.begin(), wakes.end(), 1) != wakes.end())
-    wake_those_that_must(model, state);
+  bool wakes = state.sleepers.count > 0 && step_all_shadows(model, state);
+  if (state.steps % model.watch == 0) {
+    end_watches(model, state);
+    wakes = true;
+  }
+  if (wakes) wake_those_that_must(model, state);
 }
 
 }  // namespace packbed::spheres
