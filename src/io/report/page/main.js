@@ -53,4 +53,6 @@ function build() {
 }
 
 build();
-requestAnimationFrame(() => requestAnimationFrame(() => { root.dataset.ready = 'true'; }));
+const ready = () => { root.dataset.ready = 'true'; };
+requestAnimationFrame(() => requestAnimationFrame(ready));
+setTimeout(ready, 2000); // a page that is not shown gets no frames
