@@ -105,7 +105,7 @@ void feed_keys(Fields& f, CaseRecord& r) {
   f.when(scatter, "kind = \"scatter\"", [&] {
     f.real({.name = "cloud_density",
             .meaning = "share of the cloud that the pellets' bounding spheres fill",
-            .range = above_zero_to(0.3, "in a denser one not every pellet finds a place")},
+            .range = above_zero_to(0.5, "in a denser one not every pellet finds a place")},
            r.feed.cloud_density);
   });
   f.when(lattice, "kind = \"lattice\"", [&] {
