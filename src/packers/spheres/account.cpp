@@ -39,8 +39,8 @@ Contacts contacts_of(const Model& model, State& state) {
   out.walls.resize(out.wall_list.lanes());
   SphereTally unused;
   const std::size_t walls = out.wall_list.block.size();
-  touch_spheres(model.pellet_law, view_of(s), 0.0, out.pair_list.block, out.pair_list.memory_from(0), unused,
-                out.pairs.data());
+  fastest_sphere_loops().touch_spheres({model.pellet_law, view_of(s), 0.0, out.pair_list.block,
+                                        out.pair_list.memory_from(0), unused, out.pairs.data()});
   touch_container_walls(model, s, out.wall_list, 0.0, 0, walls, unused, out.walls.data());
   if (model.solid) out.sides = sides_of(model, s, out.wall_list, 0, walls);
   return out;

@@ -5,22 +5,24 @@
 namespace packbed::spheres {
 namespace {
 
-double& lane(Quad& q, std::size_t k) {
-  return k == 0 ? q.x : k == 1 ? q.y : k == 2 ? q.z : q.w;
-}
-double lane(const Quad& q, std::size_t k) {
-  return k == 0 ? q.x : k == 1 ? q.y : k == 2 ? q.z : q.w;
-}
 void copy_spring(const SpringBlock& from, std::size_t old, double sign, SpringBlock& to, std::size_t p) {
-  for (std::size_t d = 0; d < 3; ++d) lane(to.stretch[d], p) = sign * lane(from.stretch[d], old);
-  lane(to.stiffness, p) = lane(from.stiffness, old);
+  for (std::size_t d = 0; d < 3; ++d) to.stretch[d].value[p] = sign * from.stretch[d].value[old];
+  to.stiffness.value[p] = from.stiffness.value[old];
 }
 
 void copy_memory(const List& from, std::size_t old, double sign, List& to, std::size_t p) {
-  lane(to.dash[p / 4].drag, p % 4) = lane(from.dash[old / 4].drag, old % 4);
-  lane(to.dash[p / 4].closing, p % 4) = lane(from.dash[old / 4].closing, old % 4);
-  if (!to.slip.empty()) copy_spring(from.slip[old / 4], old % 4, sign, to.slip[p / 4], p % 4);
-  if (!to.roll.empty()) copy_spring(from.roll[old / 4], old % 4, sign, to.roll[p / 4], p % 4);
+  to.dash[p / kLanes].drag.value[p % kLanes] = from.dash[old / kLanes].drag.value[old % kLanes];
+  to.dash[p / kLanes].closing.value[p % kLanes] = from.dash[old / kLanes].closing.value[old % kLanes];
+  if (!to.slip.empty())
+    copy_spring(from.slip[old / kLanes], old % kLanes, sign, to.slip[p / kLanes], p % kLanes);
+  if (!to.roll.empty())
+    copy_spring(from.roll[old / kLanes], old % kLanes, sign, to.roll[p / kLanes], p % kLanes);
+}
+
+LaneNumbers all_lanes(std::uint32_t n) {
+  LaneNumbers all;
+  all.fill(n);
+  return all;
 }
 
 std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
@@ -44,17 +46,17 @@ void make_memory(const Model& model, List& list) {
 
 void append(List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle) {
   const std::size_t p = list.filled++;
-  if (p % 4 == 0) list.block.push_back({{a, a, a, a}, {idle, idle, idle, idle}, {idle, idle, idle, idle}});
+  if (p % kLanes == 0) list.block.push_back({all_lanes(a), all_lanes(idle), all_lanes(idle)});
   PairBlock& block = list.block.back();
-  block.a[p % 4] = a;
-  block.b[p % 4] = block.to[p % 4] = b;
+  block.a[p % kLanes] = a;
+  block.b[p % kLanes] = block.to[p % kLanes] = b;
 }
 
 bool take_over(List& from, std::uint32_t a, std::uint32_t b, double sign, std::uint32_t idle, List& to) {
   const auto old = find_pair(from, a, b);
   if (!old) return false;
   copy_memory(from, *old, sign, to, to.filled - 1);
-  from.block[*old / 4].b[*old % 4] = idle;
+  from.block[*old / kLanes].b[*old % kLanes] = idle;
   return true;
 }
 

@@ -76,7 +76,7 @@ inline std::size_t chunks_of(std::size_t spheres) {
 }
 
 /// Pairs in the order of the spheres that found them: those of sphere i are numbers first[i] to first[i + 1].
-/// A chunk begins with a new block of four; lanes that are left over at its end are of no use. Late lists are
+/// A chunk begins with a new block; lanes that are left over at its end are of no use. Late lists are
 /// in the order in which pairs were found, without `first`.
 struct List {
   std::vector<PairBlock> block;
@@ -85,11 +85,11 @@ struct List {
   std::vector<DashBlock> dash;
   std::uint32_t filled = 0;  // lanes; of a late list those in use
 
-  std::uint32_t a(std::size_t pair) const { return block[pair / 4].a[pair % 4]; }
-  std::uint32_t b(std::size_t pair) const { return block[pair / 4].b[pair % 4]; }
-  std::size_t lanes() const { return 4 * block.size(); }
+  std::uint32_t a(std::size_t pair) const { return block[pair / kLanes].a[pair % kLanes]; }
+  std::uint32_t b(std::size_t pair) const { return block[pair / kLanes].b[pair % kLanes]; }
+  std::size_t lanes() const { return kLanes * block.size(); }
   /// The block that the pairs of a chunk's first sphere begin with; of the number of spheres: the end.
-  std::size_t block_of(std::size_t sphere) const { return first[sphere] / 4; }
+  std::size_t block_of(std::size_t sphere) const { return first[sphere] / kLanes; }
   SphereMemory memory_from(std::size_t block_) {
     return {slip.empty() ? nullptr : slip.data() + block_, roll.empty() ? nullptr : roll.data() + block_,
             dash.data() + block_};

@@ -200,11 +200,11 @@ void give_slots(State& state) {
   auto slots = static_cast<std::uint32_t>(n);
   for (std::size_t c = 0; c < chunks_of(n); ++c) {
     for (List* list : {&state.pairs, &state.near})
-      for (std::size_t p = 4 * list->block_of(c * kChunk);
-           p < 4 * list->block_of(std::min(n, (c + 1) * kChunk)); ++p) {
+      for (std::size_t p = kLanes * list->block_of(c * kChunk);
+           p < kLanes * list->block_of(std::min(n, (c + 1) * kChunk)); ++p) {
         const std::uint32_t b = list->b(p);
         if (b / kChunk == c) continue;
-        list->block[p / 4].to[p % 4] = slots++;
+        list->block[p / kLanes].to[p % kLanes] = slots++;
         ++state.slot_first[b + 1];
       }
     state.first_slot.push_back(slots);
@@ -214,7 +214,7 @@ void give_slots(State& state) {
   std::vector<std::uint32_t> next(state.slot_first.begin(), state.slot_first.end() - 1);
   for (const List* list : {&state.pairs, &state.near})
     for (const PairBlock& pairs : list->block)
-      for (std::size_t l = 0; l < 4; ++l)
+      for (std::size_t l = 0; l < kLanes; ++l)
         if (pairs.to[l] != pairs.b[l]) state.slot[next[pairs.b[l]]++] = pairs.to[l];
   s.force.resize(slots);
   s.twist.resize(slots);
@@ -242,7 +242,7 @@ void settle_accounts(State& state) {
   for (SphereTally& t : state.tally) {
     l.damped += total(t.damped);
     l.rubbed += total(t.rubbed);
-    for (int k = 0; k < 4; ++k) l.peak = std::max(l.peak, t.deepest[k]);
+    for (const double deepest : t.deepest.value) l.peak = std::max(l.peak, deepest);
     l.touches += total(t.touches);
     l.deep += total(t.deep);
     l.very_deep += total(t.very_deep);

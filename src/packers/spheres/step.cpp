@@ -108,7 +108,7 @@ void kick_drift(const Model& model, State& state) {
 std::vector<Quad> sides_of(const Model& model, const Spheres& s, const List& list, std::size_t from,
                            std::size_t to) {
   std::vector<Quad> sides;
-  for (std::size_t p = 4 * from; p < 4 * to; ++p) {
+  for (std::size_t p = kLanes * from; p < kLanes * to; ++p) {
     const std::uint32_t i = list.a(p);
     const Quad& x = s.place[i];
     Vec3 normal = Vec3::UnitZ();
@@ -121,17 +121,18 @@ std::vector<Quad> sides_of(const Model& model, const Spheres& s, const List& lis
 
 void touch_container_walls(const Model& model, Spheres& spheres, List& list, double step, std::size_t from,
                            std::size_t to, SphereTally& tally, SphereContact* contacts) {
-  const SphereView view = view_of(spheres);
-  const std::span<const PairBlock> blocks = blocks_of(list, from, to);
-  const SphereMemory memory = list.memory_from(from);
+  const SphereLoops& loops = fastest_sphere_loops();
+  const SphereWork work{
+      model.wall_law, view_of(spheres), step, blocks_of(list, from, to), list.memory_from(from),
+      tally,          contacts};
   if (model.solid)
-    touch_given_walls(model.wall_law, view, step, sides_of(model, spheres, list, from, to), blocks, memory,
-                      tally, contacts);
+    loops.touch_given_walls(work, sides_of(model, spheres, list, from, to));
   else
-    touch_walls(model.wall_law, view, step, model.walls, blocks, memory, tally, contacts);
+    loops.touch_walls(work, model.walls);
 }
 
 void touch(const Model& model, State& state) {
+  const SphereLoops& loops = fastest_sphere_loops();
   Spheres& s = state.spheres;
   const SphereView view = view_of(s);
   for_each_chunk(s.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
@@ -142,14 +143,15 @@ void touch(const Model& model, State& state) {
     if (model.turns) clear(s.twist);
     for (List* list : {&state.pairs, &state.near}) {
       const std::size_t from = list->block_of(begin), to = list->block_of(end);
-      touch_spheres(model.pellet_law, view, model.step, blocks_of(*list, from, to), list->memory_from(from),
-                    state.tally[c]);
+      loops.touch_spheres({model.pellet_law, view, model.step, blocks_of(*list, from, to),
+                           list->memory_from(from), state.tally[c]});
     }
     touch_container_walls(model, s, state.walls, model.step, state.walls.block_of(begin),
                           state.walls.block_of(end), state.tally[c]);
   });
   List &late = state.late.pairs, &late_walls = state.late.walls;
-  touch_spheres(model.pellet_law, view, model.step, late.block, late.memory_from(0), state.tally.back());
+  loops.touch_spheres(
+      {model.pellet_law, view, model.step, late.block, late.memory_from(0), state.tally.back()});
   touch_container_walls(model, s, late_walls, model.step, 0, late_walls.block.size(), state.tally.back());
 }
 

@@ -35,7 +35,7 @@ void begin_gear(const Model& model, State& state);
 /// Adds what the chunks have counted since the last search to the ledger, in order.
 void settle_accounts(State& state);
 SphereView view_of(Spheres& spheres);
-/// The blocks of a list of walls from number `from` up to `to`; see touch_walls for the rest.
+/// The blocks of a list of walls from number `from` up to `to`; see SphereWork for the rest.
 void touch_container_walls(const Model& model, Spheres& spheres, List& list, double step, std::size_t from,
                            std::size_t to, SphereTally& tally, SphereContact* contacts = nullptr);
 /// Walls beside the spheres of these blocks as touch_given_walls wants them, of a mesh container.
