@@ -117,6 +117,19 @@ PACKBED_INLINE void describe(const SphereLaw& law, const SphereTouch<L>& t, cons
   }
 }
 
+/// The forces of part p, and what it remembers of them; false when they were only to be described.
+template <class Form, class L>
+PACKBED_INLINE bool find_force(Form form, const SphereWork& work, std::size_t p, const SphereTouch<L>& t,
+                               SphereState<L>& state, AllSums<L>& sums, SphereForce<L>& f) {
+  if (work.contacts) state.touched = Flags<L>{};  // nothing has gone before
+  f = resolve(form, work.law, t, work.step, state, sums[p % kParts<L>]);
+  if (work.contacts)
+    describe(work.law, t, f, state, work.contacts + kWidth<L> * p);
+  else
+    keep(state, work.memory, p / kParts<L>, p % kParts<L> * kWidth<L>);
+  return !work.contacts;
+}
+
 /// Normal of a wall where the sphere is, and its distance.
 template <class L>
 struct WallSide {
@@ -175,13 +188,8 @@ PACKBED_INLINE void touch_sides(Form form, const SphereWork& work, const SideAt&
       t.rolling = vec(gathered<L>(view.spin, a));
       t.turning = (lever * place.w) * t.rolling;
     }
-    if (contacts) state.touched = Flags<L>{};  // nothing has gone before
-    const SphereForce<L> f = resolve(form, law, t, step, state, sums[p % kParts<L>]);
-    if (contacts) {
-      describe(law, t, f, state, contacts + kWidth<L> * p);
-      continue;
-    }
-    keep(state, memory, k, first);
+    SphereForce<L> f;
+    if (!find_force(form, work, p, t, state, sums, f)) continue;
     add(rows(f.force, L{}), a, view.force);
     if constexpr (!Form::friction) continue;
     LaneVec<L> twist = lever * f.moment;
@@ -228,13 +236,8 @@ PACKBED_INLINE void touch_pairs(Form form, const SphereWork& work) {
       t.turning = lever * (place_a.w * spin_a + place_b.w * spin_b);
       t.rolling = spin_a - spin_b;
     }
-    if (contacts) state.touched = Flags<L>{};  // nothing has gone before
-    const SphereForce<L> f = resolve(form, law, t, step, state, sums[p % kParts<L>]);
-    if (contacts) {
-      describe(law, t, f, state, contacts + kWidth<L> * p);
-      continue;
-    }
-    keep(state, memory, k, first);
+    SphereForce<L> f;
+    if (!find_force(form, work, p, t, state, sums, f)) continue;
     exchange(rows(f.force, L{}), a, to, view.force);
     if constexpr (!Form::friction) continue;
     const LaneVec<L> moment = lever * f.moment;
