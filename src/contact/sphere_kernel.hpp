@@ -17,12 +17,6 @@ namespace {
 /// Numbers of the lanes from `first` on.
 using Numbers = const std::uint32_t*;
 
-template <class L>
-PACKBED_INLINE LaneQuads<L> gathered(const Quad* from, Numbers at) {
-  LaneQuads<L> q;
-  gather(from, at, q);
-  return q;
-}
 /// One after the other: two may name the same entry.
 template <std::size_t N>
 PACKBED_INLINE void add(const std::array<Four, N>& row, Numbers at, Quad* to) {
@@ -169,13 +163,13 @@ PACKBED_INLINE void touch_sides(Form form, const SphereWork& work, const SideAt&
   for (std::size_t p = 0; p < kParts<L> * blocks.size(); ++p) {
     const std::size_t k = p / kParts<L>, first = p % kParts<L> * kWidth<L>;
     const Numbers a = blocks[k].a.data() + first;
-    const LaneQuads<L> place = gathered<L>(view.place, a);
+    const LaneQuads<L> place = gather<L>(view.place, a);
     const WallSide<L> side = side_at(p, vec(place));
     SphereTouch<L> t;
     t.touches = side.distance < place.w;
     SphereState<L> state = recall<L>(memory, k, first);
     if (!any(t.touches | state.touched) && !contacts) continue;
-    const LaneQuads<L> velocity = gathered<L>(view.velocity, a);
+    const LaneQuads<L> velocity = gather<L>(view.velocity, a);
     t.normal = side.normal;
     t.delta = place.w - side.distance;
     t.radius = place.w;
@@ -185,7 +179,7 @@ PACKBED_INLINE void touch_sides(Form form, const SphereWork& work, const SideAt&
     const L lever = 1.0 - 0.5 * t.delta / place.w;
     if constexpr (Form::friction) {
       t.normal_mid = side_at(p, vec(place) - (0.5 * step) * t.mid).normal;
-      t.rolling = vec(gathered<L>(view.spin, a));
+      t.rolling = vec(gather<L>(view.spin, a));
       t.turning = (lever * place.w) * t.rolling;
     }
     SphereForce<L> f;
@@ -207,14 +201,14 @@ PACKBED_INLINE void touch_pairs(Form form, const SphereWork& work) {
     const std::size_t k = p / kParts<L>, first = p % kParts<L> * kWidth<L>;
     const Numbers a = blocks[k].a.data() + first, b = blocks[k].b.data() + first,
                   to = blocks[k].to.data() + first;
-    const LaneQuads<L> place_a = gathered<L>(view.place, a), place_b = gathered<L>(view.place, b);
+    const LaneQuads<L> place_a = gather<L>(view.place, a), place_b = gather<L>(view.place, b);
     const LaneVec<L> apart = vec(place_a) - vec(place_b);
     const L distance2 = dot(apart, apart), reach = place_a.w + place_b.w;
     SphereTouch<L> t;
     t.touches = (distance2 < reach * reach) & (distance2 > 0.0);
     SphereState<L> state = recall<L>(memory, k, first);
     if (!any(t.touches | state.touched) && !contacts) continue;
-    const LaneQuads<L> velocity_a = gathered<L>(view.velocity, a), velocity_b = gathered<L>(view.velocity, b);
+    const LaneQuads<L> velocity_a = gather<L>(view.velocity, a), velocity_b = gather<L>(view.velocity, b);
     const L distance = root(distance2 > 0.0 ? distance2 : all<L>(1.0)),
             lightness = velocity_a.w + velocity_b.w;
     // 1 / distance, 1 / reach, R* and m* by one division
@@ -232,7 +226,7 @@ PACKBED_INLINE void touch_pairs(Form form, const SphereWork& work) {
       // the normal half a step ago, unit to the fourth order of the angle that it has turned since
       const LaneVec<L> back = (0.5 * step * inverse) * (t.mid - dot(t.mid, t.normal) * t.normal);
       t.normal_mid = (1.0 - 0.5 * dot(back, back)) * (t.normal - back);
-      const LaneVec<L> spin_a = vec(gathered<L>(view.spin, a)), spin_b = vec(gathered<L>(view.spin, b));
+      const LaneVec<L> spin_a = vec(gather<L>(view.spin, a)), spin_b = vec(gather<L>(view.spin, b));
       t.turning = lever * (place_a.w * spin_a + place_b.w * spin_b);
       t.rolling = spin_a - spin_b;
     }
@@ -261,7 +255,7 @@ template <class L>
 PACKBED_INLINE void walls(const SphereWork& work, std::span<const SphereWall> of) {
   const auto side_at = [&](std::size_t p, const LaneVec<L>& x) PACKBED_INLINE_LAMBDA {
     const Numbers at = work.blocks[p / kParts<L>].b.data() + p % kParts<L> * kWidth<L>;
-    return side_of(gathered<L>(of.data(), at), x);
+    return side_of(gather<L>(of.data(), at), x);
   };
   by_form(work.law, [&](auto form) PACKBED_INLINE_LAMBDA { touch_sides<L>(form, work, side_at); });
 }
@@ -270,7 +264,7 @@ template <class L>
 PACKBED_INLINE void given_walls(const SphereWork& work, std::span<const Quad> sides) {
   static constexpr LaneNumbers kInOrder{0, 1, 2, 3, 4, 5, 6, 7};
   const auto side_at = [&](std::size_t p, const LaneVec<L>&) PACKBED_INLINE_LAMBDA {
-    const LaneQuads<L> q = gathered<L>(sides.data() + kWidth<L> * p, kInOrder.data());
+    const LaneQuads<L> q = gather<L>(sides.data() + kWidth<L> * p, kInOrder.data());
     return WallSide<L>{vec(q), q.w};
   };
   by_form(work.law, [&](auto form) PACKBED_INLINE_LAMBDA { touch_sides<L>(form, work, side_at); });

@@ -74,6 +74,7 @@ struct SphereWork {
   SphereContact* contacts = nullptr;
 };
 
+/// The loops over lists, compiled for one width.
 struct SphereLoops {
   const char* name;
   void (*touch_spheres)(const SphereWork& work);

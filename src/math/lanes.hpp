@@ -16,7 +16,11 @@ namespace packbed {
 #endif
 
 using Four = double __attribute__((vector_size(32)));
-using FourFlags = long __attribute__((vector_size(32)));  // 0 or -1, from a comparison
+using Eight = double __attribute__((vector_size(64)));
+template <class L>
+inline constexpr std::size_t kWidth = sizeof(L) / sizeof(double);
+template <class L>
+using Flags = decltype(L{} < L{});  // 0 or -1
 
 /// A vector in memory with one more number beside it: one load, one cache line at most.
 struct alignas(32) Quad {
@@ -32,7 +36,7 @@ PACKBED_INLINE const Four& four(const Quad& q) {
 PACKBED_INLINE Four four(double x) {
   return Four{x, x, x, x};
 }
-PACKBED_INLINE bool any(const FourFlags& f) {
+PACKBED_INLINE bool any(const Flags<Four>& f) {
 #if defined(__SSE2__) && defined(__GNUC__) && !defined(__clang__)
   using Two = double __attribute__((vector_size(16)));
   return __builtin_ia32_movmskpd(
@@ -42,13 +46,6 @@ PACKBED_INLINE bool any(const FourFlags& f) {
   return (f[0] | f[1] | f[2] | f[3]) != 0;
 #endif
 }
-
-using Eight = double __attribute__((vector_size(64)));
-
-template <class L>
-inline constexpr std::size_t kWidth = sizeof(L) / sizeof(double);
-template <class L>
-using Flags = decltype(L{} < L{});  // 0 or -1
 
 template <class L>
 PACKBED_INLINE L all(double x) {
@@ -125,14 +122,20 @@ PACKBED_INLINE Four joined(const double& low, const double& high) {
 PACKBED_INLINE Eight joined(const Four& low, const Four& high) {
   return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-PACKBED_INLINE void gather(const Quad* from, const std::uint32_t* at, LaneQuads<Four>& to) {
+/// The Quads with these numbers, one a lane.
+template <class L>
+PACKBED_INLINE LaneQuads<L> gather(const Quad* from, const std::uint32_t* at);
+template <>
+PACKBED_INLINE LaneQuads<Four> gather<Four>(const Quad* from, const std::uint32_t* at) {
   const Quad &a = from[at[0]], &b = from[at[1]], &c = from[at[2]], &d = from[at[3]];
   const Four ac_xy = joined(a.x, c.x), bd_xy = joined(b.x, d.x);
   const Four ac_zw = joined(a.z, c.z), bd_zw = joined(b.z, d.z);
-  to = {__builtin_shufflevector(ac_xy, bd_xy, 0, 4, 2, 6), __builtin_shufflevector(ac_xy, bd_xy, 1, 5, 3, 7),
-        __builtin_shufflevector(ac_zw, bd_zw, 0, 4, 2, 6), __builtin_shufflevector(ac_zw, bd_zw, 1, 5, 3, 7)};
+  return {
+      __builtin_shufflevector(ac_xy, bd_xy, 0, 4, 2, 6), __builtin_shufflevector(ac_xy, bd_xy, 1, 5, 3, 7),
+      __builtin_shufflevector(ac_zw, bd_zw, 0, 4, 2, 6), __builtin_shufflevector(ac_zw, bd_zw, 1, 5, 3, 7)};
 }
-PACKBED_INLINE void gather(const Quad* from, const std::uint32_t* at, LaneQuads<Eight>& to) {
+template <>
+PACKBED_INLINE LaneQuads<Eight> gather<Eight>(const Quad* from, const std::uint32_t* at) {
   const auto two = [&](std::size_t k) __attribute__((always_inline)) {
     return joined(four(from[at[k]]), four(from[at[k + 4]]));
   };
@@ -141,10 +144,10 @@ PACKBED_INLINE void gather(const Quad* from, const std::uint32_t* at, LaneQuads<
               yw_01 = __builtin_shufflevector(row_04, row_15, 1, 9, 3, 11, 5, 13, 7, 15),
               xz_23 = __builtin_shufflevector(row_26, row_37, 0, 8, 2, 10, 4, 12, 6, 14),
               yw_23 = __builtin_shufflevector(row_26, row_37, 1, 9, 3, 11, 5, 13, 7, 15);
-  to = {__builtin_shufflevector(xz_01, xz_23, 0, 1, 8, 9, 4, 5, 12, 13),
-        __builtin_shufflevector(yw_01, yw_23, 0, 1, 8, 9, 4, 5, 12, 13),
-        __builtin_shufflevector(xz_01, xz_23, 2, 3, 10, 11, 6, 7, 14, 15),
-        __builtin_shufflevector(yw_01, yw_23, 2, 3, 10, 11, 6, 7, 14, 15)};
+  return {__builtin_shufflevector(xz_01, xz_23, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(yw_01, yw_23, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(xz_01, xz_23, 2, 3, 10, 11, 6, 7, 14, 15),
+          __builtin_shufflevector(yw_01, yw_23, 2, 3, 10, 11, 6, 7, 14, 15)};
 }
 
 /// A Quad of each lane, lane by lane.
