@@ -190,7 +190,7 @@ AnalysisResult analyse_bed(const PackedBed& bed, const AnalysisWish& wish, Voxel
   if (wish.exact) analyse_exact(bed, layout, overlaps, result);
   if (wish.orientation) result.orientation = orientation(bed);
   std::optional<CoreRegion> core;
-  if (wish.core) core = core_region(bed.container, result.bed_height_m, core_margin(bed, wish));
+  if (wish.core) core = core_region(bed.container, settled_top(bed), core_margin(bed, wish));
   if (core) analyse_core(bed, wish, *core, wish.voxels ? &grid : nullptr, overlaps, result);
   analyse_mixture(bed, core, overlaps, result);
   result.bulk.definition = definition_of_density(layout, bed.container, wish.voxels);

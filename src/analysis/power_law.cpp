@@ -70,15 +70,44 @@ Eigen::Vector3d levenberg_marquardt(const Problem& problem, Eigen::Vector3d p) {
   return p;
 }
 
-void check(std::span<const double> x, std::span<const double> y) {
+void check(std::span<const double> x, std::span<const double> y, std::size_t fitted) {
   const std::set<double> different(x.begin(), x.end());
-  if (x.size() != y.size() || x.size() < 4 || different.size() < 3)
+  if (x.size() != y.size() || x.size() <= fitted || different.size() < fitted)
     throw InputError("law", fmt::format("{} beds of {} different size ratios", x.size(), different.size()),
-                     "four beds and three size ratios at least", "pack more beds");
+                     fmt::format("{} beds and {} size ratios at least", fitted + 1, fitted),
+                     "pack more beds");
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!(x[i] > 0) || !std::isfinite(x[i]) || !std::isfinite(y[i]))
       throw InputError("law", fmt::format("a bed of size ratio {:g} and porosity {:g}", x[i], y[i]),
                        "a ratio greater than 0 and a number");
+}
+
+Problem problem_of(std::span<const double> x, std::span<const double> y, std::size_t fitted) {
+  check(x, y, fitted);
+  const auto n = static_cast<Eigen::Index>(x.size());
+  Problem problem{Vector(n), Vector(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    problem.log_x[i] = std::log(x[static_cast<std::size_t>(i)]);
+    problem.y[i] = y[static_cast<std::size_t>(i)];
+  }
+  return problem;
+}
+
+/// With the intervals of the first `fitted` parameters.
+PowerLaw law_of(const Problem& problem, const Eigen::Vector3d& p, Eigen::Index fitted, double confidence) {
+  PowerLaw law;
+  law.points = static_cast<int>(problem.y.size());
+  const int freedom = law.points - static_cast<int>(fitted);
+  law.confidence = confidence;
+  law.sd = std::sqrt(problem.residual(p).squaredNorm() / freedom);
+  const Eigen::MatrixXd j = problem.jacobian(p).leftCols(fitted);
+  const Eigen::MatrixXd covariance = (j.transpose() * j).inverse() * law.sd * law.sd;
+  const double t = student_t(confidence, freedom);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    law.value[static_cast<std::size_t>(k)] = p[k];
+    law.half_width[static_cast<std::size_t>(k)] = k < fitted ? t * std::sqrt(covariance(k, k)) : 0;
+  }
+  return law;
 }
 
 /// P(|T| <= t).
@@ -107,30 +136,18 @@ double student_t(double probability, int degrees) {
 }
 
 PowerLaw fit_power_law(std::span<const double> x, std::span<const double> y, double confidence) {
-  check(x, y);
-  const auto n = static_cast<Eigen::Index>(x.size());
-  Problem problem{Vector(n), Vector(n)};
-  for (Eigen::Index i = 0; i < n; ++i) {
-    problem.log_x[i] = std::log(x[static_cast<std::size_t>(i)]);
-    problem.y[i] = y[static_cast<std::size_t>(i)];
-  }
+  const Problem problem = problem_of(x, y, 3);
   const Eigen::Vector3d p = levenberg_marquardt(problem, best_of_scan(problem));
   if (!(p[2] > kLeastN && p[2] < kMostN))
     throw InputError("law", fmt::format("points that are fitted best by an exponent of {:.3g}", p[2]),
                      fmt::format("one between {} and {}", kLeastN, kMostN),
                      "the points do not bend like the law");
-  PowerLaw law;
-  law.points = static_cast<int>(n);
-  law.confidence = confidence;
-  law.sd = std::sqrt(problem.residual(p).squaredNorm() / static_cast<double>(n - 3));
-  const Eigen::MatrixX3d j = problem.jacobian(p);
-  const Eigen::Matrix3d covariance = (j.transpose() * j).inverse() * law.sd * law.sd;
-  const double t = student_t(confidence, law.points - 3);
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    law.value[static_cast<std::size_t>(k)] = p[k];
-    law.half_width[static_cast<std::size_t>(k)] = t * std::sqrt(covariance(k, k));
-  }
-  return law;
+  return law_of(problem, p, 3, confidence);
+}
+
+PowerLaw fit_power_law_of(double n, std::span<const double> x, std::span<const double> y, double confidence) {
+  const Problem problem = problem_of(x, y, 2);
+  return law_of(problem, problem.best_line(n), 2, confidence);
 }
 
 }  // namespace packbed

@@ -22,6 +22,11 @@ struct PowerLaw {
 /// three different x, and for points that no exponent between 0.01 and 20 fits best.
 PowerLaw fit_power_law(std::span<const double> x, std::span<const double> y, double confidence = 0.95);
 
+/// The same with a given exponent: a and b alone, on points - 2 degrees of freedom; n has no
+/// interval. Throws InputError for fewer than three points or two different x.
+PowerLaw fit_power_law_of(double n, std::span<const double> x, std::span<const double> y,
+                          double confidence = 0.95);
+
 /// Student's t that |T| stays under with this probability (Abramowitz & Stegun, 1964, 26.7.3 and 26.7.4).
 double student_t(double probability, int degrees);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 
 #include "bed/pellet_box.hpp"
 #include "math/hash.hpp"
@@ -23,6 +24,14 @@ void add(Hash& hash, const Shape& shape) {
   for (const auto& t : shape.surface.triangles) hash.add(t);
 }
 
+template <class Counts>
+double top_of(const PackedBed& bed, const Counts& counts) {
+  double top = 0;
+  for (const Pellet& p : bed.pellets)
+    if (counts(p)) top = std::max(top, reach(*bed.shapes[p.shape], p, Vec3::UnitZ()));
+  return top;
+}
+
 }  // namespace
 
 std::string bed_hash(const PackedBed& bed) {
@@ -40,9 +49,14 @@ std::string bed_hash(const PackedBed& bed) {
 }
 
 double bed_top(const PackedBed& bed) {
-  double top = 0;
-  for (const Pellet& p : bed.pellets) top = std::max(top, reach(*bed.shapes[p.shape], p, Vec3::UnitZ()));
-  return top;
+  return top_of(bed, [](const Pellet&) { return true; });
+}
+
+double settled_top(const PackedBed& bed) {
+  if (bed.contacts.empty()) return bed_top(bed);
+  std::unordered_set<std::uint32_t> touching;
+  for (const Contact& c : bed.contacts) touching.insert(c.a), touching.insert(c.b);
+  return top_of(bed, [&](const Pellet& p) { return p.fixed || touching.contains(p.id); });
 }
 
 double reach(const Shape& shape, const Pellet& pellet, const Vec3& direction) {

@@ -49,5 +49,7 @@ struct PackedBed {
 std::string bed_hash(const PackedBed& bed);
 /// Height of the highest point of any pellet above z = 0 [m]; 0 for an empty bed.
 double bed_top(const PackedBed& bed);
+/// The same of the pellets that touch something, where contacts are known: what still flies does not count.
+double settled_top(const PackedBed& bed);
 
 }  // namespace packbed

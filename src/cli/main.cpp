@@ -1,6 +1,9 @@
 // The program: reads the command line and hands over to one function a sub-command.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "cli/commands.hpp"
 #include "math/error.hpp"
@@ -158,11 +161,22 @@ void add_handover(CLI::App& app, int& code) {
   c->callback([o, &code] { code = handover(*o); });
 }
 
+/// Lists of contacts are made anew many times a second: their memory is kept instead of being given back to
+/// the system, which would clear each page again.
+void keep_memory() {
+#ifdef __GLIBC__
+  constexpr int kMost = 1 << 26;  // larger pieces, those of checkpoints, do go back
+  mallopt(M_MMAP_THRESHOLD, kMost);
+  mallopt(M_TRIM_THRESHOLD, 4 * kMost);
+#endif
+}
+
 }  // namespace
 }  // namespace packbed::cli
 
 int main(int argc, char** argv) {
   using namespace packbed;
+  cli::keep_memory();
   CLI::App app{"packbed pours CAD pellets into CAD containers and tells what the bed is like."};
   app.set_version_flag("--version", "packbed " PACKBED_VERSION);
   app.require_subcommand(1);

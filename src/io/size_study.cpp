@@ -19,7 +19,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kCurve = 100;  // points that a law is drawn with
+constexpr double kEqual = 1 - 1e-9;  // ratio of sizes
+constexpr int kCurve = 100;          // points that a law is drawn with
 
 double number_at(const Json& json, const Json::json_pointer& at) {
   return json.contains(at) && json.at(at).is_number() ? json.at(at).get<double>() : kNaN;
@@ -45,6 +46,8 @@ StudyBed read_bed_of_study(const std::string& input) {
     bed.coordination = number("/bed/coordination/core_bearing");
     bed.cpu_s = number("/time/cpu_s");
     bed.wall_s = number("/time/wall_s");
+    for (const Json& row : s.value("sizes", Json::array()))
+      bed.sizes.push_back({row.at("diameter_m").get<double>(), row.at("volume").get<double>()});
     if (!(bed.smallest_m > 0) || !(bed.largest_m > 0))
       throw InputError(path, "no size of the pellets", "the summary of a bed that was analysed");
     return bed;
@@ -65,6 +68,7 @@ const Column kColumns[] = {
     {"height mm", "height_m", "{:.1f}", [](const StudyBed& b) { return b.height_m; }},
     {"porosity", "core_porosity", "{:.4f}", [](const StudyBed& b) { return b.porosity; }},
     {"by shots", "core_porosity_shots", "{:.4f}", [](const StudyBed& b) { return b.shots; }},
+    {"by model", "core_porosity_model", "{:.4f}", [](const StudyBed& b) { return b.model; }},
     {"their error", "shots_error", "{:.1e}", [](const StudyBed& b) { return b.shots_error; }},
     {"segregation", "segregation", "{:+.4f}", [](const StudyBed& b) { return b.segregation; }},
     {"contacts", "core_coordination", "{:.2f}", [](const StudyBed& b) { return b.coordination; }},
@@ -99,6 +103,10 @@ double published_value(const Study& study, const std::string& name) {
   return found == study.published.end() ? kNaN : found->second.value;
 }
 
+double porosity_of_equal(const StudyBed& b) {
+  return b.ratio() > kEqual ? b.porosity : kNaN;
+}
+
 /// Mean, and half of the way from the least to the largest.
 LawLine range_line(const Study& study, const std::string& name, double (*value)(const StudyBed&)) {
   double least = std::numeric_limits<double>::infinity(), most = -least, sum = 0, n = 0;
@@ -128,8 +136,7 @@ std::vector<LawLine> law_lines(const Study& study) {
     lines.push_back(line);
   }
   lines.push_back({"sd", study.law ? study.law->sd : kNaN, kNaN, published_value(study, "sd"), kNaN, kNaN});
-  lines.push_back(range_line(study, "monodisperse",
-                             [](const StudyBed& b) { return b.ratio() > 1 - 1e-9 ? b.porosity : kNaN; }));
+  lines.push_back(range_line(study, "monodisperse", porosity_of_equal));
   lines.push_back(range_line(study, "segregation", [](const StudyBed& b) { return b.segregation; }));
   return lines;
 }
@@ -174,6 +181,10 @@ std::string law_text(const Study& study) {
                                  100 * study.law->confidence)
                    : fmt::format(": not fitted ({})\n", study.no_law);
   for (const LawLine& l : law_lines(study)) out += line_text(study, l) + '\n';
+  if (const auto& law = study.with_published_n)
+    out += fmt::format("with n = {:g} as published: a {:.4f} +- {:.4f}, b {:.4f} +- {:.4f}, sd {:.4f}\n",
+                       law->value[2], law->value[0], law->half_width[0], law->value[1], law->half_width[1],
+                       law->sd);
   return out;
 }
 
@@ -207,6 +218,17 @@ Series mean_by_size(const Study& study) {
     s.x.push_back(1e3 * size);
     s.y.push_back(sum / n);
   }
+  return s;
+}
+
+/// What the packing model says of the sizes of the study, in the middle of the beds of each.
+Series model_curve(const Study& study) {
+  Series s{{}, {}, chart_ink(2), false, "linear packing model"};
+  for (const StudyBed& b : study.beds)
+    if (std::isfinite(b.model)) {
+      s.x.push_back(b.ratio());
+      s.y.push_back(b.model);
+    }
   return s;
 }
 
@@ -248,6 +270,7 @@ std::string figures(const Study& study) {
   std::vector<Series> fourth{dots(study, millimetres, porosity), mean_by_size(study)};
   std::vector<Series> fifth{dots(study, ratio, porosity)};
   if (study.law) fifth.push_back(curve(*study.law, 1, 0, "fitted law"));
+  if (const Series model = model_curve(study); model.x.size() > 1) fifth.push_back(model);
   if (const auto law = published_law(study)) {
     fourth.push_back(curve(*law, largest, 1, "published law"));
     fifth.push_back(curve(*law, 1, 1, "published law"));
@@ -267,6 +290,17 @@ std::string table_html(const Study& study) {
     for (const Column& c : kColumns) out += fmt::format("<td>{}</td>", shown(c, b));
   }
   return out + "</tr></table>\n";
+}
+
+std::optional<PowerLaw> fit_with_published_n(const Study& study, const std::vector<double>& x,
+                                             const std::vector<double>& y) {
+  const double n = published_value(study, "n");
+  if (!std::isfinite(n)) return {};
+  try {
+    return fit_power_law_of(n, x, y);
+  } catch (const InputError&) {
+    return {};  // too few, as the law's own message says
+  }
 }
 
 }  // namespace
@@ -296,7 +330,10 @@ std::map<std::string, Published> read_published(const std::string& path) {
 }
 
 Study make_study(std::vector<StudyBed> beds, std::map<std::string, Published> published) {
-  Study study{std::move(beds), std::move(published), {}, ""};
+  Study study{std::move(beds), std::move(published), {}, "", {}};
+  const double alone = range_line(study, "monodisperse", porosity_of_equal).value;
+  for (StudyBed& b : study.beds)
+    b.model = b.ratio() > kEqual ? alone : std::isfinite(alone) ? mixture_porosity(b.sizes, alone) : kNaN;
   std::vector<double> x, y;
   for (const StudyBed& b : study.beds)
     if (std::isfinite(b.porosity)) {
@@ -307,6 +344,7 @@ Study make_study(std::vector<StudyBed> beds, std::map<std::string, Published> pu
     study.law = fit_power_law(x, y);
   } catch (const InputError& e) {
     study.no_law = e.what();
+    study.with_published_n = fit_with_published_n(study, x, y);
   }
   return study;
 }

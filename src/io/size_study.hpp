@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/packing_model.hpp"
 #include "analysis/power_law.hpp"
 
 namespace packbed {
@@ -19,6 +20,8 @@ struct StudyBed {
   double porosity = 0, shots = 0, shots_error = 0;  // of the core
   double segregation = 0, coordination = 0;         // touching pellets in the core, rattlers aside
   double cpu_s = 0, wall_s = 0;
+  std::vector<SizeShare> sizes;  // that the bed has
+  double model = 0;  // porosity of mixture_porosity, from the mean of the beds of equal pellets; NaN without
 
   double ratio() const { return smallest_m / largest_m; }
 };
@@ -39,10 +42,11 @@ struct Study {
   std::vector<StudyBed> beds;
   std::map<std::string, Published> published;
   std::optional<PowerLaw> law;
-  std::string no_law;  // why there is none
+  std::string no_law;                        // why there is none
+  std::optional<PowerLaw> with_published_n;  // then, when an exponent was published
 };
 
-/// Fits the law to the beds that have a core.
+/// Fits the law to the beds that have a core, and asks the packing model about each.
 Study make_study(std::vector<StudyBed> beds, std::map<std::string, Published> published);
 
 /// The table, the law beside the published one, and the range of the segregation.

@@ -146,6 +146,12 @@ void add_faces(Grid& grid, const Faces& faces, const Pose& pose, double scale) {
   }
 }
 
+void add_point(Grid& grid, const Pellet& p) {
+  grid.connectivity.push_back(static_cast<std::int32_t>(grid.types.size()));
+  grid.point(p.pose.position);
+  grid.cell(kVertexCell);
+}
+
 /// The inside of a round tube with its floor, drawn open above.
 Faces tube_inside(const Container& tube) {
   Faces out = prism(tube.radius, tube.height / 2);
@@ -188,12 +194,22 @@ void write_vtu(const std::string& path, const std::vector<ShapePtr>& shapes,
                const std::vector<Pellet>& pellets, const CellFields& fields) {
   std::vector<Faces> faces;
   for (const ShapePtr& shape : shapes) faces.push_back(faces_of(*shape));
+  const bool as_points = pellets.size() > kMostDrawnSpheres &&
+                         std::all_of(shapes.begin(), shapes.end(),
+                                     [](const ShapePtr& shape) { return shape->kind == ShapeClass::sphere; });
   Grid grid;
+  std::vector<float> diameters;
   std::vector<std::size_t> cells;  // of each pellet
   for (const Pellet& p : pellets) {
-    add_faces(grid, faces[p.shape], p.pose, p.scale);
-    cells.push_back(faces[p.shape].faces.size());
+    if (as_points) {
+      add_point(grid, p);
+      diameters.push_back(static_cast<float>(2 * p.scale * shapes[p.shape]->radius));
+    } else {
+      add_faces(grid, faces[p.shape], p.pose, p.scale);
+    }
+    cells.push_back(as_points ? 1 : faces[p.shape].faces.size());
   }
+  if (as_points) grid.point_data = grid.array("diameter_m", diameters);
   const bool known = fields.overlap.size() == pellets.size();
   grid.cell_data = pellet_array<std::int32_t>(grid, "pellet", pellets, cells,
                                               [&](std::size_t i) { return pellets[i].id; }) +
@@ -213,9 +229,7 @@ void write_point_vtu(const std::string& path, const std::vector<Pellet>& pellets
   std::vector<std::int32_t> id, shape;
   std::vector<float> rotation, velocity, spin, scale;
   for (const Pellet& p : pellets) {
-    grid.connectivity.push_back(static_cast<std::int32_t>(grid.types.size()));
-    grid.point(p.pose.position);
-    grid.cell(kVertexCell);
+    add_point(grid, p);
     id.push_back(static_cast<std::int32_t>(p.id));
     shape.push_back(static_cast<std::int32_t>(p.shape));
     scale.push_back(static_cast<float>(p.scale));

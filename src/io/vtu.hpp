@@ -13,8 +13,12 @@ struct CellFields {
       overlap;  // deepest overlap of each pellet, fraction of its smallest thickness (n or empty)
 };
 
-/// Every pellet as its surface; recognised cylinders as caps and quadrilaterals. Cell data: pellet, shape,
-/// height_m, angle_deg, overlap (0 when not known). Throws SystemError.
+/// Most spheres that are drawn as surfaces: a million triangles or so.
+inline constexpr std::size_t kMostDrawnSpheres = 5000;
+
+/// Every pellet as its surface; recognised cylinders as caps and quadrilaterals. A bed of more spheres than
+/// kMostDrawnSpheres has one point each instead. Cell data: pellet, shape, height_m, angle_deg, overlap (0
+/// when not known). Point data of such spheres: diameter_m. Throws SystemError.
 void write_vtu(const std::string& path, const PackedBed& bed, const CellFields& fields = {});
 
 /// The same for a frame of a run.

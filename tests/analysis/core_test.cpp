@@ -57,6 +57,19 @@ TEST(Core, LiesAMarginOfTheLargestAwayFromEverything) {
   EXPECT_EQ(r.core->best(), r.core->exact);
 }
 
+TEST(Core, EndsBelowTheTopOfWhatTouchesSomething) {
+  PackedBed bed = scattered_bed(1, 8e-3, 30e-3, 300);
+  for (const Pellet& p : bed.pellets)
+    bed.contacts.push_back({p.id, kContainer, Vec3::Zero(), Vec3::Zero(), 0});
+  const double top = bed_top(bed);
+  test::add(bed, {0, 0, top + 20e-3});
+  EXPECT_GT(bed_top(bed), top + 20e-3);
+  EXPECT_DOUBLE_EQ(settled_top(bed), top);
+  EXPECT_DOUBLE_EQ(analyse_bed(bed, core_wish()).core->z_range_m[1], top - 3e-3);
+  bed.contacts.clear();  // nothing is known of who touches whom
+  EXPECT_DOUBLE_EQ(settled_top(bed), bed_top(bed));
+}
+
 TEST(Core, ExactIsOneMinusTheSpheresThatLieInIt) {
   PackedBed bed = test::tube_bed({test::sphere(1e-3)}, 8e-3);
   const CoreRegion core{3e-3, 5e-3, Vec2::Zero(), 3e-3, 23e-3};

@@ -63,6 +63,24 @@ TEST(PowerLaw, IntervalsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_NEAR(std::sqrt(variance / fitted) / (kSd / 3), 1, 0.02);
 }
 
+TEST(PowerLaw, WithItsExponentGivenTheIntervalsHoldTooAndAreShorter) {
+  const auto x = ratios();
+  constexpr int kTrials = 1000;
+  std::array<int, 2> inside{0, 0};
+  double shorter = 0;
+  for (int i = 0; i < kTrials; ++i) {
+    const auto y = porosities(x, kSd, static_cast<std::uint32_t>(i));
+    const PowerLaw law = fit_power_law_of(kN, x, y);
+    EXPECT_EQ(law.value[2], kN);
+    EXPECT_EQ(law.half_width[2], 0);
+    inside[0] += std::abs(law.value[0] - kA) <= law.half_width[0];
+    inside[1] += std::abs(law.value[1] - kB) <= law.half_width[1];
+    shorter += law.half_width[0] / kTrials;
+  }
+  for (const int n : inside) EXPECT_NEAR(n, 950, 3 * std::sqrt(0.95 * 0.05 * kTrials));
+  EXPECT_LT(shorter, fit_power_law(x, porosities(x, kSd, 0)).half_width[0]);
+}
+
 TEST(PowerLaw, StudentsTIsThatOfTheTables) {
   EXPECT_NEAR(student_t(0.95, 1), 12.706, 5e-4);
   EXPECT_NEAR(student_t(0.95, 2), 4.303, 5e-4);
@@ -73,6 +91,7 @@ TEST(PowerLaw, StudentsTIsThatOfTheTables) {
 }
 
 TEST(PowerLaw, IsNotFittedToTooLittle) {
+  EXPECT_THROW(fit_power_law_of(0.3, std::vector{0.1, 1.0}, std::vector{0.2, 0.3}), InputError);
   EXPECT_THROW(fit_power_law(std::vector{0.1, 0.5, 1.0}, std::vector{0.2, 0.3, 0.4}), InputError);
   EXPECT_THROW(fit_power_law(std::vector{0.1, 0.1, 1.0, 1.0}, std::vector{0.2, 0.3, 0.4, 0.4}), InputError);
   EXPECT_THROW(fit_power_law(std::vector{0.0, 0.1, 0.5, 1.0}, std::vector{0.2, 0.3, 0.4, 0.4}), InputError);

@@ -9,6 +9,7 @@
 #include "io/atomic_file.hpp"
 #include "io/sample_bed.hpp"
 #include "io/temporary_folder.hpp"
+#include "io/vtu.hpp"
 #include "math/error.hpp"
 
 namespace packbed {
@@ -60,6 +61,29 @@ double volume_of(const PackedBed& bed) {
   for (const Pellet& p : bed.pellets)
     volume += std::pow(p.scale, 3) * mass_properties(bed.shapes[p.shape]->surface).volume;
   return volume;
+}
+
+TEST(Export, ManySpheresArePointsWithTheirDiameters) {
+  const TemporaryFolder folder;
+  Shape ball;
+  ball.kind = ShapeClass::sphere;
+  ball.radius = 1e-3;
+  ball.surface = {{{0, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}}, {{0, 1, 2}}};
+  PackedBed bed;
+  bed.shapes = {std::make_shared<Shape>(ball)};
+  const auto head_with = [&](std::size_t pellets) {
+    for (auto id = static_cast<std::uint32_t>(bed.pellets.size()); id < pellets; ++id) {
+      bed.pellets.emplace_back();
+      bed.pellets.back().id = id;
+    }
+    write_vtu(folder / "bed.vtu", bed);
+    return read_file(folder / "bed.vtu").substr(0, 1000);
+  };
+  const std::string few = head_with(kMostDrawnSpheres), many = head_with(kMostDrawnSpheres + 1);
+  EXPECT_NE(few.find("NumberOfPoints=\"15000\" NumberOfCells=\"5000\""), std::string::npos) << few;
+  EXPECT_EQ(few.find("diameter_m"), std::string::npos) << few;
+  EXPECT_NE(many.find("NumberOfPoints=\"5001\" NumberOfCells=\"5001\""), std::string::npos) << many;
+  EXPECT_NE(many.find("diameter_m"), std::string::npos) << many;
 }
 
 TEST(Export, StlHoldsTheVolumeInCubicMillimetres) {

@@ -59,6 +59,27 @@ TEST(SizeStudy, TooFewBedsHaveATableAndNoLaw) {
   EXPECT_NE(study_text(study).find("not fitted"), std::string::npos);
 }
 
+TEST(SizeStudy, PointsThatBendOtherwiseAreFittedWithThePublishedExponent) {
+  std::vector<StudyBed> straight = beds();
+  for (StudyBed& b : straight) b.porosity = 0.42 + 0.035 * std::log(b.ratio());
+  const Study study = make_study(straight, {{"n", {0.328, NAN, NAN}}});
+  EXPECT_FALSE(study.law);
+  ASSERT_TRUE(study.with_published_n);
+  EXPECT_EQ(study.with_published_n->value[2], 0.328);
+  EXPECT_NEAR(study.with_published_n->at(1), 0.42, 0.01);
+  EXPECT_NE(study_text(study).find("with n = 0.328 as published"), std::string::npos);
+  EXPECT_FALSE(make_study(straight, {}).with_published_n);
+}
+
+TEST(SizeStudy, ThePackingModelBeginsAtTheBedsOfEqualPellets) {
+  std::vector<StudyBed> some = {bed(18.24, 0.01), bed(18.24, -0.01), bed(10.52)};
+  some[2].sizes = {{10.52e-3, 0.14}, {18.24e-3, 0.86}};
+  const Study study = make_study(some, {});
+  EXPECT_NEAR(study.beds[0].model, 0.39, 1e-12);
+  EXPECT_NEAR(study.beds[2].model, mixture_porosity(some[2].sizes, 0.39), 1e-12);
+  EXPECT_TRUE(std::isnan(make_study({some[2]}, {}).beds[0].model));
+}
+
 TEST(SizeStudy, ReadsSummariesInTheOrderOfTheirSmallestPellets) {
   const TemporaryFolder folder;
   for (const auto& [name, size] : {std::pair("a", 0.01), {"b", 0.005}}) {

@@ -44,12 +44,17 @@ void make_memory(const Model& model, List& list) {
   list.roll.resize(model.rolls ? list.block.size() : 0);
 }
 
-void append(List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle) {
-  const std::size_t p = list.filled++;
-  if (p % kLanes == 0) list.block.push_back({all_lanes(a), all_lanes(idle), all_lanes(idle)});
-  PairBlock& block = list.block.back();
+void put(List& list, std::size_t p, std::uint32_t a, std::uint32_t b, std::uint32_t idle) {
+  PairBlock& block = list.block[p / kLanes];
+  if (p % kLanes == 0) block = {all_lanes(a), all_lanes(idle), all_lanes(idle)};
   block.a[p % kLanes] = a;
   block.b[p % kLanes] = block.to[p % kLanes] = b;
+}
+
+void append(List& list, std::uint32_t a, std::uint32_t b, std::uint32_t idle) {
+  const std::size_t p = list.filled++;
+  if (p % kLanes == 0) list.block.emplace_back();
+  put(list, p, a, b, idle);
 }
 
 bool take_over(List& from, std::uint32_t a, std::uint32_t b, double sign, std::uint32_t idle, List& to) {
@@ -60,7 +65,30 @@ bool take_over(List& from, std::uint32_t a, std::uint32_t b, double sign, std::u
   return true;
 }
 
-OldLists::OldLists(std::vector<List> lists, List late) : lists_(std::move(lists)), late_(std::move(late)) {
+void link(PairChains& chains, const List& list, std::size_t p) {
+  const auto number = static_cast<std::uint32_t>(p + 1);
+  chains.before.push_back({chains.last[list.a(p)], chains.last[list.b(p)]});
+  chains.last[list.a(p)] = chains.last[list.b(p)] = number;
+}
+
+PairChains chains_of(const List& list, std::size_t spheres) {
+  PairChains chains;
+  chains.last.resize(spheres);
+  for (std::size_t p = 0; p < list.filled; ++p) link(chains, list, p);
+  return chains;
+}
+
+bool are_linked(const PairChains& chains, const List& list, std::uint32_t a, std::uint32_t b) {
+  for (std::uint32_t n = chains.last[a]; n > 0;) {
+    const std::uint32_t p = n - 1, first = list.a(p), second = list.b(p);
+    if (first == b || second == b) return true;
+    n = chains.before[p][first == a ? 0 : 1];
+  }
+  return false;
+}
+
+OldLists::OldLists(std::initializer_list<List*> lists, List& late) : late_(std::move(late)) {
+  for (List* list : lists) lists_.push_back(std::move(*list));
   for (std::uint32_t p = 0; p < late_.filled; ++p) place_.push_back({key_of(late_.a(p), late_.b(p)), p});
   std::sort(place_.begin(), place_.end());
 }

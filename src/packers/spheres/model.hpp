@@ -96,13 +96,21 @@ struct List {
   }
 };
 
+/// The pairs of a list that each sphere is in: a chain of lanes, numbered from 1, from its last to its first.
+struct PairChains {
+  std::vector<std::uint32_t> last;                   // of each sphere; 0: none
+  std::vector<std::array<std::uint32_t, 2>> before;  // of each lane, for its a and for its b
+};
+
 /// What has changed since the last search.
 struct Late {
-  List pairs, walls;                      // what is in no other list
-  std::vector<std::uint32_t> moved;       // the spheres that were listed anew
-  std::size_t woken = 0;                  // of sleepers
-  std::vector<Quad> reach;                // of each sphere at the search: centre [m], radius and margin [m]
-  std::shared_ptr<const LevelGrid> grid;  // of these, made when it is needed; in no checkpoint
+  List pairs, walls;                 // what is in no other list
+  std::vector<std::uint32_t> moved;  // the spheres that were listed anew
+  std::size_t woken = 0;             // of sleepers
+  std::vector<Quad> reach;           // of each sphere at the search: centre [m], radius and margin [m]
+  // made when they are needed; in no checkpoint
+  std::shared_ptr<const LevelGrid> grid;  // of `reach`
+  PairChains chains;                      // of `pairs`
 };
 
 /// One entry a sphere, in memory order; beyond `anchor` of use to sleepers only.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/threads.hpp"
 #include "packers/spheres/search.hpp"
 #include "packers/spheres/sleep.hpp"
 
@@ -34,27 +35,20 @@ bool has_moved(const State& state, std::uint32_t i) {
   return way_from(state.late.reach[i], state.spheres.listed_at[i]) > 0;
 }
 
-bool holds(const std::vector<std::uint32_t>& values, std::uint32_t value) {
-  return std::find(values.begin(), values.end(), value) != values.end();
-}
+/// Who a sphere may touch from now on without a list of the search saying so: spheres, which may be in a late
+/// pair with it, and walls, for which the same holds.
+struct Partners {
+  std::vector<std::uint32_t> spheres, walls;
+};
 
-void list_partners(const Model& model, State& state, std::uint32_t i) {
+Partners partners_of(const Model& model, const State& state, std::uint32_t i) {
   const Spheres& s = state.spheres;
-  Late& late = state.late;
-  std::vector<std::uint32_t> had;
-  for (std::size_t p = 0; p < late.pairs.filled; ++p) {
-    if (late.pairs.a(p) == i) had.push_back(late.pairs.b(p));
-    if (late.pairs.b(p) == i) had.push_back(late.pairs.a(p));
-  }
+  const Late& late = state.late;
+  Partners found;
   const auto consider = [&](std::uint32_t j) {
     if (j == i || !(s.velocity[i].w > 0 || s.velocity[j].w > 0)) return;
     const auto lists = [&](const List& list) { return find_pair(list, i, j) || find_pair(list, j, i); };
-    if (holds(had, j) || lists(state.pairs) || lists(state.near)) return;
-    append(late.pairs, i, j, i);
-    had.push_back(j);
-    make_memory(model, late.pairs);
-    if (!take_over(state.still, i, j, 1.0, i, late.pairs)) take_over(state.still, j, i, -1.0, j, late.pairs);
-    come_to_shore(state.sleepers, j);
+    if (!lists(state.pairs) && !lists(state.near)) found.spheres.push_back(j);
   };
   const Quad ball = ball_of(s, i);
   late.grid->for_each_within(ball, [&](std::uint32_t j) {
@@ -62,24 +56,46 @@ void list_partners(const Model& model, State& state, std::uint32_t i) {
   });
   for (std::uint32_t j : late.moved)
     if (meet(ball, ball_of(s, j))) consider(j);
+  for_each_wall_near(model, ball, [&](std::uint32_t wall) {
+    if (!find_pair(state.walls, i, wall)) found.walls.push_back(wall);
+  });
+  return found;
 }
 
-void list_walls(const Model& model, State& state, std::uint32_t i) {
+void list_pair(const Model& model, State& state, std::uint32_t i, std::uint32_t j) {
+  Late& late = state.late;
+  if (are_linked(late.chains, late.pairs, i, j)) return;
+  append(late.pairs, i, j, i);
+  link(late.chains, late.pairs, late.pairs.filled - 1);
+  make_memory(model, late.pairs);
+  if (!take_over(state.still, i, j, 1.0, i, late.pairs)) take_over(state.still, j, i, -1.0, j, late.pairs);
+  come_to_shore(state.sleepers, j);
+}
+
+void list_wall(const Model& model, State& state, std::uint32_t i, std::uint32_t wall) {
   List& late = state.late.walls;
-  for_each_wall_near(model, ball_of(state.spheres, i), [&](std::uint32_t wall) {
-    if (find_pair(state.walls, i, wall)) return;
-    for (std::size_t p = 0; p < late.filled; ++p)
-      if (late.a(p) == i && late.b(p) == wall) return;
-    append(late, i, wall, idle_wall(model));
-    make_memory(model, late);
-    take_over(state.still_walls, i, wall, 1.0, idle_wall(model), late);
-  });
+  for (std::size_t p = 0; p < late.filled; ++p)
+    if (late.a(p) == i && late.b(p) == wall) return;
+  append(late, i, wall, idle_wall(model));
+  make_memory(model, late);
+  take_over(state.still_walls, i, wall, 1.0, idle_wall(model), late);
 }
 
 /// `spheres`: whose partners are not all in lists.
 void list_anew(const Model& model, State& state, const std::vector<std::uint32_t>& spheres) {
-  if (!state.late.grid) state.late.grid = std::make_shared<LevelGrid>(state.late.reach);
-  for (std::uint32_t i : spheres) list_partners(model, state, i), list_walls(model, state, i);
+  Late& late = state.late;
+  if (!late.grid) {
+    late.grid = std::make_shared<LevelGrid>(late.reach);
+    late.chains = chains_of(late.pairs, state.spheres.size());
+  }
+  std::vector<Partners> partners(spheres.size());
+  parallel_for(spheres.size(), 4, [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) partners[k] = partners_of(model, state, spheres[k]);
+  });
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    for (std::uint32_t j : partners[k].spheres) list_pair(model, state, spheres[k], j);
+    for (std::uint32_t wall : partners[k].walls) list_wall(model, state, spheres[k], wall);
+  }
 }
 
 }  // namespace
@@ -98,7 +114,7 @@ bool relist(const Model& model, State& state) {
   if (is_too_much(state, strays.size())) return false;
   for (std::uint32_t i : strays) {
     if (!has_moved(state, i)) late.moved.push_back(i);
-    give_margin(model, state, i);
+    give_margin(model, state, i, moves(state, i) && is_free(state, i));
   }
   list_anew(model, state, strays);
   std::fill(state.strayed.begin(), state.strayed.end(), std::uint8_t{0});

@@ -79,7 +79,9 @@ std::vector<std::uint32_t> curve_order(const Spheres& s) {
 template <class T>
 void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
   std::vector<T> sorted(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = values[order[i]];
+  parallel_for(order.size(), 4096, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) sorted[i] = values[order[i]];
+  });
   values.swap(sorted);
 }
 
@@ -121,19 +123,23 @@ struct Found {
 /// own sphere.
 List listed(const std::vector<Found>& found, std::size_t spheres, const Model& model,
             std::optional<std::uint32_t> idle) {
+  std::vector<std::size_t> first_block(1, 0);
+  for (const Found& f : found)
+    first_block.push_back(first_block.back() + (f.partner.size() + kLanes - 1) / kLanes);
   List list;
-  list.first.push_back(0);
-  for (std::size_t c = 0; c < found.size(); ++c) {
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < found[c].count.size(); ++i) {
-      const auto a = static_cast<std::uint32_t>(c * kChunk + i);
-      for (std::uint32_t n = 0; n < found[c].count[i]; ++n)
-        append(list, a, found[c].partner[k++], idle.value_or(a));
-      list.first.push_back(list.filled);
+  list.block.resize(first_block.back());
+  list.first.resize(spheres + 1);
+  list.first[spheres] = list.filled = static_cast<std::uint32_t>(list.lanes());
+  for_each_chunk(spheres, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    std::size_t p = kLanes * first_block[c];
+    auto partner = found[c].partner.begin();
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto a = static_cast<std::uint32_t>(i);
+      list.first[i] = static_cast<std::uint32_t>(p);
+      for (std::uint32_t n = 0; n < found[c].count[i - begin]; ++n)
+        put(list, p++, a, *partner++, idle.value_or(a));
     }
-    list.first.back() = list.filled = static_cast<std::uint32_t>(list.lanes());
-  }
-  list.first.resize(spheres + 1, list.first.back());
+  });
   make_memory(model, list);
   return list;
 }
@@ -155,8 +161,7 @@ void list_pairs(const Model& model, State& state, const LevelGrid& grid, const B
       });
     }
   });
-  const OldLists old({std::move(state.pairs), std::move(state.near), std::move(state.still)},
-                     std::move(state.late.pairs));
+  const OldLists old({&state.pairs, &state.near, &state.still}, state.late.pairs);
   state.pairs = listed(touching, s.size(), model, {});
   state.near = listed(others, s.size(), model, {});
   state.still = listed(still, s.size(), model, {});
@@ -183,7 +188,7 @@ void list_walls(const Model& model, State& state, const std::vector<Quad>& reach
       });
     }
   });
-  const OldLists old({std::move(state.walls), std::move(state.still_walls)}, std::move(state.late.walls));
+  const OldLists old({&state.walls, &state.still_walls}, state.late.walls);
   state.walls = listed(found, s.size(), model, idle_wall(model));
   state.still_walls = listed(still, s.size(), model, idle_wall(model));
   for (List* list : {&state.walls, &state.still_walls})
@@ -193,29 +198,43 @@ void list_walls(const Model& model, State& state, const std::vector<Quad>& reach
 
 /// A pair whose second sphere is another chunk's leaves its force in a slot.
 void give_slots(State& state) {
+  struct Lane {
+    std::size_t p;
+    std::uint32_t b, slot;
+  };
+  enum : std::size_t { kTouching, kNear };
   Spheres& s = state.spheres;
   const std::size_t n = s.size();
   state.slot_first.assign(n + 1, 0);
   state.first_slot.assign(1, static_cast<std::uint32_t>(n));
   auto slots = static_cast<std::uint32_t>(n);
-  for (std::size_t c = 0; c < chunks_of(n); ++c) {
-    for (List* list : {&state.pairs, &state.near})
-      for (std::size_t p = kLanes * list->block_of(c * kChunk);
-           p < kLanes * list->block_of(std::min(n, (c + 1) * kChunk)); ++p) {
-        const std::uint32_t b = list->b(p);
-        if (b / kChunk == c) continue;
-        list->block[p / kLanes].to[p % kLanes] = slots++;
-        ++state.slot_first[b + 1];
+  std::vector<std::array<std::vector<Lane>, 2>> foreign(chunks_of(n));
+  for_each_chunk(n, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (const std::size_t of : {kTouching, kNear}) {
+      const List& list = of == kTouching ? state.pairs : state.near;
+      for (std::size_t p = kLanes * list.block_of(begin); p < kLanes * list.block_of(end); ++p)
+        if (list.b(p) / kChunk != c) foreign[c][of].push_back({p, list.b(p), 0});
+    }
+  });
+  for (auto& lists : foreign) {
+    for (auto& list : lists)
+      for (Lane& lane : list) {
+        lane.slot = slots++;
+        ++state.slot_first[lane.b + 1];
       }
     state.first_slot.push_back(slots);
   }
   for (std::size_t i = 0; i < n; ++i) state.slot_first[i + 1] += state.slot_first[i];
   state.slot.resize(slots - n);
   std::vector<std::uint32_t> next(state.slot_first.begin(), state.slot_first.end() - 1);
-  for (const List* list : {&state.pairs, &state.near})
-    for (const PairBlock& pairs : list->block)
-      for (std::size_t l = 0; l < kLanes; ++l)
-        if (pairs.to[l] != pairs.b[l]) state.slot[next[pairs.b[l]]++] = pairs.to[l];
+  for (const std::size_t of : {kTouching, kNear}) {
+    List& list = of == kTouching ? state.pairs : state.near;
+    for (const auto& lists : foreign)
+      for (const Lane& lane : lists[of]) {
+        list.block[lane.p / kLanes].to[lane.p % kLanes] = lane.slot;
+        state.slot[next[lane.b]++] = lane.slot;
+      }
+  }
   s.force.resize(slots);
   s.twist.resize(slots);
 }
@@ -226,10 +245,14 @@ bool flies(const State& state, std::size_t i) {
 }
 
 void adapt_flight(State& state) {
-  std::size_t pairs = 0, flying = 1;
-  for (std::size_t i = 0; i < state.spheres.size(); ++i) flying += flies(state, i);
-  for (std::size_t p = 0; p < state.near.lanes(); ++p)
-    pairs += flies(state, state.near.a(p)) || flies(state, state.near.b(p));
+  std::vector<std::size_t> flying_in(chunks_of(state.spheres.size())), pairs_in(flying_in);
+  for_each_chunk(state.spheres.size(), [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) flying_in[c] += flies(state, i);
+    for (std::size_t p = kLanes * state.near.block_of(begin); p < kLanes * state.near.block_of(end); ++p)
+      pairs_in[c] += flies(state, state.near.a(p)) || flies(state, state.near.b(p));
+  });
+  const std::size_t flying = std::accumulate(flying_in.begin(), flying_in.end(), std::size_t{1}),
+                    pairs = std::accumulate(pairs_in.begin(), pairs_in.end(), std::size_t{0});
   const double near = static_cast<double>(pairs) / static_cast<double>(flying);
   if (near > kManyNear) state.flight_steps = std::max(kHorizonSteps, state.flight_steps / 1.5);
   if (near < kFewNear) state.flight_steps = std::min(kMostFlightSteps, state.flight_steps * 1.25);
@@ -263,19 +286,18 @@ void feed(const Model& model, State& state, Feeder& feeder) {
   if (feeder.waiting()) state.waited = 1;
 }
 
-void give_margin(const Model& model, State& state, std::size_t i) {
+void give_margin(const Model& model, State& state, std::size_t i, bool flies) {
   Spheres& s = state.spheres;
   const Quad& x = s.place[i];
-  const double steps = flies(state, i) ? state.flight_steps : kHorizonSteps;
+  const double steps = flies ? state.flight_steps : kHorizonSteps;
   const double margin = model.skin * x.w + steps * model.step * vec(s.velocity[i]).norm();
   s.listed_at[i] = {x.x, x.y, x.z, margin * margin};
 }
 
 void find_pairs(const Model& model, State& state) {
   const bool strayed = std::find(state.strayed.begin(), state.strayed.end(), 1) != state.strayed.end();
-  if (!state.search_due && !strayed) return;
+  if (!state.search_due && (!strayed || relist(model, state))) return;
   finish_kick(model, state);
-  if (!state.search_due && relist(model, state)) return;
   state.search_due = 0;
   settle_accounts(state);
   Spheres& s = state.spheres;
@@ -285,10 +307,12 @@ void find_pairs(const Model& model, State& state) {
   ++state.searches;
   Late& late = state.late;
   late.reach.resize(s.size());
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    give_margin(model, state, i);
-    late.reach[i] = ball_of(s, i);
-  }
+  for_each_chunk(s.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      give_margin(model, state, i, flies(state, i));
+      late.reach[i] = ball_of(s, i);
+    }
+  });
   late.grid = std::make_shared<LevelGrid>(late.reach);
   list_pairs(model, state, *late.grid, before);
   list_walls(model, state, late.reach, before);
@@ -296,6 +320,7 @@ void find_pairs(const Model& model, State& state) {
   find_shore(state);
   adapt_flight(state);
   late.pairs = {}, late.walls = {};
+  late.chains = chains_of(late.pairs, s.size());
   late.moved.clear();
   late.woken = 0;
   state.strayed.assign(chunks_of(s.size()), 0);

@@ -7,8 +7,8 @@
 
 namespace packbed::spheres {
 
-/// Lets sphere i go on from where it is without leaving its lists.
-void give_margin(const Model& model, State& state, std::size_t i);
+/// Lets sphere i go on from where it is without leaving its lists. `flies`: nothing touches it.
+void give_margin(const Model& model, State& state, std::size_t i, bool flies);
 
 /// Where sphere i may be until it is listed again: centre and how far its surface may reach [m].
 inline Quad ball_of(const Spheres& s, std::size_t i) {
