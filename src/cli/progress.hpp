@@ -12,7 +12,7 @@ class ProgressLine {
 
  private:
   bool quiet_, terminal_, shown_ = false;
-  double start_, last_plain_ = 0;
+  double start_, last_plain_ = 0, first_fraction_ = -1;
 };
 
 }  // namespace packbed::cli

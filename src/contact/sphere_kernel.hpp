@@ -44,6 +44,12 @@ template <class L>
 inline constexpr std::size_t kParts = kLanes / kWidth<L>;
 template <class L>
 using AllSums = std::array<SphereSums<L>, kParts<L>>;
+/// The block that part p of a list is in, the part's number in it, and its first lane there.
+template <class L>
+struct Part {
+  explicit Part(std::size_t p) : block(p / kParts<L>), number(p % kParts<L>), first(number * kWidth<L>) {}
+  std::size_t block, number, first;
+};
 
 template <class L>
 PACKBED_INLINE Springs<L> load(const SpringBlock& b, std::size_t first) {
@@ -116,11 +122,12 @@ template <class Form, class L>
 PACKBED_INLINE bool find_force(Form form, const SphereWork& work, std::size_t p, const SphereTouch<L>& t,
                                SphereState<L>& state, AllSums<L>& sums, SphereForce<L>& f) {
   if (work.contacts) state.touched = Flags<L>{};  // nothing has gone before
-  f = resolve(form, work.law, t, work.step, state, sums[p % kParts<L>]);
+  const Part<L> at(p);
+  f = resolve(form, work.law, t, work.step, state, sums[at.number]);
   if (work.contacts)
     describe(work.law, t, f, state, work.contacts + kWidth<L> * p);
   else
-    keep(state, work.memory, p / kParts<L>, p % kParts<L> * kWidth<L>);
+    keep(state, work.memory, at.block, at.first);
   return !work.contacts;
 }
 
@@ -161,13 +168,13 @@ PACKBED_INLINE void touch_sides(Form form, const SphereWork& work, const SideAt&
   const auto& [law, view, step, blocks, memory, tally, contacts] = work;
   AllSums<L> sums = load<L>(tally);
   for (std::size_t p = 0; p < kParts<L> * blocks.size(); ++p) {
-    const std::size_t k = p / kParts<L>, first = p % kParts<L> * kWidth<L>;
-    const Numbers a = blocks[k].a.data() + first;
+    const Part<L> at(p);
+    const Numbers a = blocks[at.block].a.data() + at.first;
     const LaneQuads<L> place = gather<L>(view.place, a);
     const WallSide<L> side = side_at(p, vec(place));
     SphereTouch<L> t;
     t.touches = side.distance < place.w;
-    SphereState<L> state = recall<L>(memory, k, first);
+    SphereState<L> state = recall<L>(memory, at.block, at.first);
     if (!any(t.touches | state.touched) && !contacts) continue;
     const LaneQuads<L> velocity = gather<L>(view.velocity, a);
     t.normal = side.normal;
@@ -193,20 +200,36 @@ PACKBED_INLINE void touch_sides(Form form, const SphereWork& work, const SideAt&
   if (!contacts) store<L>(sums, tally);
 }
 
+/// Asks for what the pairs of a block a little further on will read: neighbours in space that stand elsewhere
+/// in memory are waited for otherwise.
+template <class Form>
+PACKBED_INLINE void fetch_ahead(Form, const SphereView& view, std::span<const PairBlock> blocks,
+                                std::size_t k) {
+  constexpr std::size_t kAhead = 2;
+  if (k + kAhead >= blocks.size()) return;
+  for (const std::uint32_t b : blocks[k + kAhead].b) {
+    __builtin_prefetch(view.place + b);
+    __builtin_prefetch(view.velocity + b);
+    if constexpr (Form::friction) __builtin_prefetch(view.spin + b);
+  }
+}
+
 template <class L, class Form>
 PACKBED_INLINE void touch_pairs(Form form, const SphereWork& work) {
   const auto& [law, view, step, blocks, memory, tally, contacts] = work;
   AllSums<L> sums = load<L>(tally);
   for (std::size_t p = 0; p < kParts<L> * blocks.size(); ++p) {
-    const std::size_t k = p / kParts<L>, first = p % kParts<L> * kWidth<L>;
-    const Numbers a = blocks[k].a.data() + first, b = blocks[k].b.data() + first,
-                  to = blocks[k].to.data() + first;
+    const Part<L> at(p);
+    if (at.first == 0) fetch_ahead(form, view, blocks, at.block);
+    const PairBlock& block = blocks[at.block];
+    const Numbers a = block.a.data() + at.first, b = block.b.data() + at.first,
+                  to = block.to.data() + at.first;
     const LaneQuads<L> place_a = gather<L>(view.place, a), place_b = gather<L>(view.place, b);
     const LaneVec<L> apart = vec(place_a) - vec(place_b);
     const L distance2 = dot(apart, apart), reach = place_a.w + place_b.w;
     SphereTouch<L> t;
     t.touches = (distance2 < reach * reach) & (distance2 > 0.0);
-    SphereState<L> state = recall<L>(memory, k, first);
+    SphereState<L> state = recall<L>(memory, at.block, at.first);
     if (!any(t.touches | state.touched) && !contacts) continue;
     const LaneQuads<L> velocity_a = gather<L>(view.velocity, a), velocity_b = gather<L>(view.velocity, b);
     const L distance = root(distance2 > 0.0 ? distance2 : all<L>(1.0)),
@@ -254,8 +277,8 @@ PACKBED_INLINE void spheres(const SphereWork& work) {
 template <class L>
 PACKBED_INLINE void walls(const SphereWork& work, std::span<const SphereWall> of) {
   const auto side_at = [&](std::size_t p, const LaneVec<L>& x) PACKBED_INLINE_LAMBDA {
-    const Numbers at = work.blocks[p / kParts<L>].b.data() + p % kParts<L> * kWidth<L>;
-    return side_of(gather<L>(of.data(), at), x);
+    const Part<L> at(p);
+    return side_of(gather<L>(of.data(), work.blocks[at.block].b.data() + at.first), x);
   };
   by_form(work.law, [&](auto form) PACKBED_INLINE_LAMBDA { touch_sides<L>(form, work, side_at); });
 }

@@ -24,6 +24,7 @@ struct StudyBed {
   double model = 0;  // porosity of mixture_porosity, from the mean of the beds of equal pellets; NaN without
 
   double ratio() const { return smallest_m / largest_m; }
+  bool of_equal_pellets() const { return ratio() > 1 - 1e-9; }
 };
 
 /// Of finished runs: result folders or their summary.json, sorted by the size of the smallest pellet. Throws

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "packers/spheres/chunks.hpp"
 #include "packers/spheres/step.hpp"
 
 #if defined(__GNUC__) && !defined(__clang__)
@@ -11,10 +12,6 @@
 
 namespace packbed::spheres {
 namespace {
-
-Vec3 vec(const Quad& q) {
-  return {q.x, q.y, q.z};
-}
 
 List joined(List a, const List& b) {
   const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };

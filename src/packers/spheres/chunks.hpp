@@ -20,6 +20,9 @@ void for_each_chunk(std::size_t spheres, const Body& body) {
   });
 }
 
+inline Vec3 vec(const Quad& q) {
+  return {q.x, q.y, q.z};
+}
 PACKBED_INLINE Four four_of(const Vec3& v) {
   return Four{v.x(), v.y(), v.z(), 0.0};
 }

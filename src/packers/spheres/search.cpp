@@ -1,5 +1,4 @@
-// Phases feed and find_pairs: who is in the scene, in which order they stand in memory, and who may touch
-// whom before the next search.
+// Phases feed and find_pairs: who is in the scene, and who may touch whom before the next search.
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -18,14 +17,8 @@ namespace {
 constexpr double kHorizonSteps = 60, kMostFlightSteps = 2000;
 // Pairs of flying spheres over their number, between which the flight steps are left as they are.
 constexpr double kFewNear = 0.2, kManyNear = 0.4;
-// Searches between two sorts of the memory.
-constexpr std::int64_t kSortEvery = 4;
 // What moves faster is not part of the bed's surface [m/s].
 constexpr double kSurfaceSpeed = 0.2;
-
-Vec3 vec(const Quad& q) {
-  return {q.x, q.y, q.z};
-}
 
 void enter(const Model& model, State& state, const Pellet& pellet) {
   Spheres& s = state.spheres;
@@ -47,71 +40,6 @@ void enter(const Model& model, State& state, const Pellet& pellet) {
   state.ledger.input += 0.5 * mass * pellet.velocity.squaredNorm() +
                         0.5 * inertia * pellet.spin.squaredNorm() -
                         mass * model.gravity.dot(pellet.pose.position);
-}
-
-/// Bits of a number below 2^21, two zeros between each.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x1f00000000ffff;
-  x = (x | x << 16) & 0x1f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
-}
-
-/// The order of the spheres along a Z-curve through cells as wide as the smallest sphere.
-std::vector<std::uint32_t> curve_order(const Spheres& s) {
-  Box3 box;
-  double smallest = 1e300;
-  for (const Quad& x : s.place) box.extend(vec(x)), smallest = std::min(smallest, 2.0 * x.w);
-  const double width = std::max(smallest, box.sizes().maxCoeff() / 2e6);
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> key(s.size());
-  for (std::uint32_t i = 0; i < s.size(); ++i) {
-    const Vec3 cell = (vec(s.place[i]) - box.min()) / width;
-    const auto at = [&](int k) { return spread(static_cast<std::uint64_t>(cell[k])); };
-    key[i] = {at(0) | at(1) << 1 | at(2) << 2, i};
-  }
-  std::sort(key.begin(), key.end());
-  std::vector<std::uint32_t> order(s.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = key[i].second;
-  return order;
-}
-
-template <class T>
-void reorder(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
-  std::vector<T> sorted(order.size());
-  parallel_for(order.size(), 4096, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) sorted[i] = values[order[i]];
-  });
-  values.swap(sorted);
-}
-
-/// Where sphere i stood when the last lists were made, and whether it was there at all.
-using Before = std::vector<std::uint32_t>;
-
-Before sort_memory(State& state) {
-  Spheres& s = state.spheres;
-  const std::size_t n = s.size();
-  const std::size_t listed = state.slot_first.empty() ? 0 : state.slot_first.size() - 1;
-  for (std::vector<Quad>* of : {&s.force, &s.twist}) {
-    of->resize(listed);  // the slots go; nothing acts yet on who has entered
-    of->resize(n);
-  }
-  if (state.searches % kSortEvery != 0) {
-    Before same(n);
-    std::iota(same.begin(), same.end(), 0U);
-    return same;
-  }
-  Before order = curve_order(s);
-  reorder(s.id, order), reorder(s.kind, order), reorder(s.scale, order);
-  reorder(s.place, order), reorder(s.velocity, order), reorder(s.spin, order);
-  reorder(s.force, order), reorder(s.twist, order), reorder(s.listed_at, order);
-  Sleepers::each_of(state.sleepers, [&](auto& of) { reorder(of, order); });
-  if (!state.gear.spin_ahead.empty()) {
-    for (std::vector<Quad>& of : state.gear.position) reorder(of, order);
-    for (std::vector<Quad>& of : state.gear.spin) reorder(of, order);
-    reorder(state.gear.ahead, order), reorder(state.gear.spin_ahead, order);
-  }
-  return order;
 }
 
 /// Partners that the spheres of a chunk have found, one after the other, and how many each.
@@ -194,49 +122,6 @@ void list_walls(const Model& model, State& state, const std::vector<Quad>& reach
   for (List* list : {&state.walls, &state.still_walls})
     for (std::size_t p = 0; p < list->lanes(); ++p)
       old.hand_over(before[list->a(p)], list->b(p), 1.0, *list, p);
-}
-
-/// A pair whose second sphere is another chunk's leaves its force in a slot.
-void give_slots(State& state) {
-  struct Lane {
-    std::size_t p;
-    std::uint32_t b, slot;
-  };
-  enum : std::size_t { kTouching, kNear };
-  Spheres& s = state.spheres;
-  const std::size_t n = s.size();
-  state.slot_first.assign(n + 1, 0);
-  state.first_slot.assign(1, static_cast<std::uint32_t>(n));
-  auto slots = static_cast<std::uint32_t>(n);
-  std::vector<std::array<std::vector<Lane>, 2>> foreign(chunks_of(n));
-  for_each_chunk(n, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    for (const std::size_t of : {kTouching, kNear}) {
-      const List& list = of == kTouching ? state.pairs : state.near;
-      for (std::size_t p = kLanes * list.block_of(begin); p < kLanes * list.block_of(end); ++p)
-        if (list.b(p) / kChunk != c) foreign[c][of].push_back({p, list.b(p), 0});
-    }
-  });
-  for (auto& lists : foreign) {
-    for (auto& list : lists)
-      for (Lane& lane : list) {
-        lane.slot = slots++;
-        ++state.slot_first[lane.b + 1];
-      }
-    state.first_slot.push_back(slots);
-  }
-  for (std::size_t i = 0; i < n; ++i) state.slot_first[i + 1] += state.slot_first[i];
-  state.slot.resize(slots - n);
-  std::vector<std::uint32_t> next(state.slot_first.begin(), state.slot_first.end() - 1);
-  for (const std::size_t of : {kTouching, kNear}) {
-    List& list = of == kTouching ? state.pairs : state.near;
-    for (const auto& lists : foreign)
-      for (const Lane& lane : lists[of]) {
-        list.block[lane.p / kLanes].to[lane.p % kLanes] = lane.slot;
-        state.slot[next[lane.b]++] = lane.slot;
-      }
-  }
-  s.force.resize(slots);
-  s.twist.resize(slots);
 }
 
 /// Whether sphere i moves and nothing pushed it at the end of the last step.

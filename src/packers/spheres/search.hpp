@@ -7,6 +7,13 @@
 
 namespace packbed::spheres {
 
+/// Where each sphere stood when the last lists were made; who has entered since comes after those.
+using Before = std::vector<std::uint32_t>;
+/// Drops the slots, and puts the spheres in the order of the curve when that is due.
+Before sort_memory(State& state);
+/// A pair whose second sphere is another chunk's leaves its force in a slot.
+void give_slots(State& state);
+
 /// Lets sphere i go on from where it is without leaving its lists. `flies`: nothing touches it.
 void give_margin(const Model& model, State& state, std::size_t i, bool flies);
 
