@@ -50,6 +50,37 @@ TEST_P(Sleep, WhatIsHitIsPushedAsFarAsIfAwake) {
   EXPECT_NEAR(slept, awake, 0.08 * awake);
 }
 
+// A small sphere sleeps on a large one, which is then knocked away. Its weight is too little for its shadow
+// to tell: it is woken now and then, and falls.
+TEST(LightSleep, FallsWhenWhatItLiesOnHasGone) {
+  Scene s;
+  s.method = "spheres";
+  s.pellets = {{make_sphere("small", 0.265e-3), 1000, 0.5}, {make_sphere("large", 5e-3), 1000, 0.5}};
+  s.container.kind = ContainerKind::plane;
+  s.container.name = "floor";
+  for (ContactLaw* law : {&s.pellet_contact, &s.wall_contact}) {
+    law->friction = law->damping_ratio = 0.3;
+    law->stiffness = 100;
+  }
+  const auto place = [&](const Vec3& at, std::uint32_t kind) -> PlacedPellet& {
+    PlacedPellet& p = s.feed.placed.emplace_back();
+    p.pose.position = at;
+    p.kind = kind;
+    return p;
+  };
+  place({0, 0, 10.266e-3}, 0);
+  place({0, 0, 5e-3}, 1);
+  place({-40e-3, 0, 5e-3}, 1).velocity = {0.2, 0, 0};
+  s.feed.kind = FeedKind::placed;
+  s.stepping.duration = 0.8;
+  const PackResult result = pack(s, {});
+  EXPECT_GT(result.bed.pellets[1].pose.position.x(), 10e-3);
+  EXPECT_LT(result.bed.pellets[0].pose.position.z(), 0.3e-3);
+  EXPECT_GE(result.record.counters.at("sleeps"), 1);
+  s.stepping.duration = 0.1;  // asleep and still there, though the large one is about to be hit
+  EXPECT_GT(pack(s, {}).bed.pellets[0].pose.position.z(), 10e-3);
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, Sleep, testing::Values("mesh", "digidem", "spheres"),
                          [](const auto& p) { return p.param; });
 

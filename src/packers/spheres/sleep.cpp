@@ -26,6 +26,11 @@ constexpr std::size_t kSleptShare = 32;
 constexpr double kUnbalanced = 0.01;
 // Change of the force of its contacts, over its weight, by which a sleeper has lost its support.
 constexpr double kLostSupport = 0.05;
+// What is lighter than this share of the mean mass, by mass, carries next to nothing of the bed.
+constexpr double kLight = 0.01;
+// Watches after which a light sleeper beside something that moves is woken, to see whether it lies on
+// anything.
+constexpr std::int64_t kLightSleep = 64;
 
 PACKBED_INLINE double size_of(const Four& v) {
   const Four squares = v * v;
@@ -53,6 +58,18 @@ double way_of_unbalanced(const Model& model, const State& state, std::size_t i) 
   const double time = model.step * static_cast<double>(model.watch << state.sleepers.watch[i]);
   const double gravity = model.gravity.norm();
   return gravity > 0 ? 0.5 * kUnbalanced * gravity * time * time : most_way(model, state, i);
+}
+
+/// The mass below which spheres are light [kg]; without gravity none is.
+double light_mass(const Model& model, const Spheres& s) {
+  if (!(model.gravity.norm() > 0)) return 0;
+  double sum = 0, squares = 0;
+  for (const Quad& v : s.velocity) {
+    if (!(v.w > 0)) continue;
+    sum += 1 / v.w;
+    squares += 1 / (v.w * v.w);
+  }
+  return sum > 0 ? kLight * squares / sum : 0;
 }
 
 double kinetic_of(const Spheres& s, std::size_t i) {
@@ -111,16 +128,41 @@ void wake(const Model& model, State& state, std::size_t i) {
   s.twist[i] = {};
 }
 
+/// Steps of the watch of a light sphere: so many that what is out of balance goes farther than it may.
+std::int64_t light_watch(const Model& model, const State& state, std::size_t i) {
+  const double time = std::sqrt(2 * most_way(model, state, i) / (kUnbalanced * model.gravity.norm()));
+  std::int64_t steps = model.watch << state.sleepers.watch[i];
+  while (model.step * static_cast<double>(steps) < time) steps *= 2;
+  return steps;
+}
+
+Four force_on(const State& state, std::size_t i) {
+  return four(state.spheres.force[i]) + slots_of(state, state.spheres.force, i);
+}
+
+/// Whether sphere i touches something, has gone no farther in its watch than `way` [m], and is no faster than
+/// `fastest` [m/s].
+bool has_stayed(const State& state, std::size_t i, double way, double fastest) {
+  const Spheres& s = state.spheres;
+  return size_of(force_on(state, i)) > 0 &&
+         size_of(four(s.place[i]) - four(state.sleepers.anchor[i])) <= way &&
+         size_of(four(s.velocity[i])) <= fastest && size_of(four(s.spin[i])) * s.place[i].w <= fastest;
+}
+
+/// A light sphere trembles with all that goes on around it: its weight presses it into its neighbours by less
+/// than they swing. So it is not asked to be in balance at the moment, but on the whole of a long watch.
+bool has_settled_lightly(const Model& model, const State& state, std::size_t i, std::int64_t watch) {
+  const double time = model.step * static_cast<double>(watch);
+  return has_stayed(state, i, most_way(model, state, i), 0.5 * kUnbalanced * model.gravity.norm() * time);
+}
+
 bool has_settled(const Model& model, const State& state, std::size_t i) {
   const Spheres& s = state.spheres;
-  if (!(s.velocity[i].w > 0)) return false;
-  const double limit = std::min(most_way(model, state, i), way_of_unbalanced(model, state, i));
-  const double fastest = limit * swing_of(model, s, i), gravity = model.gravity.norm();
-  const Four force = four(s.force[i]) + slots_of(state, s.force, i);
-  const Four unbalanced = spread_w(s.velocity[i]) * force + four_of(model.gravity);
-  return size_of(force) > 0 && (size_of(unbalanced) <= kUnbalanced * gravity || !(gravity > 0)) &&
-         size_of(four(s.place[i]) - four(state.sleepers.anchor[i])) <= limit &&
-         size_of(four(s.velocity[i])) <= fastest && size_of(four(s.spin[i])) * s.place[i].w <= fastest;
+  const double limit = std::min(most_way(model, state, i), way_of_unbalanced(model, state, i)),
+               gravity = model.gravity.norm();
+  const Four unbalanced = spread_w(s.velocity[i]) * force_on(state, i) + four_of(model.gravity);
+  return (size_of(unbalanced) <= kUnbalanced * gravity || !(gravity > 0)) &&
+         has_stayed(state, i, limit, limit * swing_of(model, s, i));
 }
 
 void put_to_sleep(const Model& model, State& state, std::size_t i) {
@@ -147,12 +189,19 @@ bool has_lost_support(const Model& model, const State& state, std::size_t i) {
 /// watched for longer, by powers of two.
 void end_watches(const Model& model, State& state) {
   Sleepers& z = state.sleepers;
-  const std::int64_t number = state.steps / model.watch;
+  const double light_below = light_mass(model, state.spheres);
   for (std::size_t i = 0; i < state.spheres.size(); ++i) {
-    if (number % (std::int64_t{1} << z.watch[i]) != 0) continue;
-    if (z.is[i] == Sleepers::kShore && has_lost_support(model, state, i)) z.is[i] = Sleepers::kWaking;
+    const double lightness = state.spheres.velocity[i].w;
+    if (!(lightness > 0)) continue;
+    const bool light = lightness * light_below > 1;
+    const std::int64_t watch = light ? light_watch(model, state, i) : model.watch << z.watch[i];
+    if (state.steps % watch != 0) continue;
+    const bool looks = light && (state.steps / watch + state.spheres.id[i]) % kLightSleep == 0;
+    if (z.is[i] == Sleepers::kShore && (looks || (!light && has_lost_support(model, state, i))))
+      z.is[i] = Sleepers::kWaking;
     if (z.is[i] != Sleepers::kAwake) continue;
-    if (z.watched[i] && has_settled(model, state, i)) {
+    const bool settled = light ? has_settled_lightly(model, state, i, watch) : has_settled(model, state, i);
+    if (z.watched[i] && settled) {
       put_to_sleep(model, state, i);
     } else {
       z.anchor[i] = state.spheres.place[i];
