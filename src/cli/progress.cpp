@@ -34,7 +34,7 @@ ProgressLine::ProgressLine(bool quiet)
 void ProgressLine::show(const Progress& p) {
   if (quiet_) return;
   const double elapsed = now() - start_;
-  if (!(first_fraction_ >= 0)) first_fraction_ = p.fraction;  // of a run that is resumed, more than 0
+  if (first_fraction_ < 0) first_fraction_ = p.fraction;  // of a run that is resumed, more than 0
   if (!terminal_ && elapsed - last_plain_ < kPlainSeconds) return;
   last_plain_ = elapsed;
   const std::string line =

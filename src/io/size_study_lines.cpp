@@ -20,10 +20,7 @@ LawLine range_line(const Study& study, const std::string& name, double (*value)(
       sum += v;
       ++n;
     }
-  LawLine line{name};
-  if (n > 0) line = {name, sum / n, kNaN, kNaN, least, most};
-  line.published = published_value(study, name);
-  return line;
+  return n > 0 ? LawLine{name, sum / n, kNaN, least, most} : LawLine{name};
 }
 
 std::string line_text(const Study& study, const LawLine& l) {
@@ -35,20 +32,23 @@ std::string line_text(const Study& study, const LawLine& l) {
   else
     out += fmt::format(" {:.4f}", l.value);
   if (std::isfinite(l.half)) out += fmt::format(" +- {:.4f}", l.half);
-  const auto found = study.published.find(l.name);
-  if (found == study.published.end()) return out;
+  if (!study.published.contains(l.name)) return out;
+  const Published p = published_of(study, l.name);
   out += "   published:";
-  if (std::isfinite(found->second.value)) out += fmt::format(" {:g}", found->second.value);
-  if (std::isfinite(found->second.low))
-    out += fmt::format(" ({:g} to {:g})", found->second.low, found->second.high);
+  if (std::isfinite(p.value)) out += fmt::format(" {:g}", p.value);
+  if (std::isfinite(p.low)) out += fmt::format(" ({:g} to {:g})", p.low, p.high);
   return out;
 }
 
 }  // namespace
 
-double published_value(const Study& study, const std::string& name) {
+Published published_of(const Study& study, const std::string& name) {
   const auto found = study.published.find(name);
-  return found == study.published.end() ? kNaN : found->second.value;
+  return found == study.published.end() ? Published{kNaN, kNaN, kNaN} : found->second;
+}
+
+double published_value(const Study& study, const std::string& name) {
+  return published_of(study, name).value;
 }
 
 LawLine of_equal_pellets(const Study& study) {
@@ -86,10 +86,9 @@ std::vector<LawLine> law_lines(const Study& study) {
       line.value = study.law->value[k];
       line.half = study.law->half_width[k];
     }
-    line.published = published_value(study, names[k]);
     lines.push_back(line);
   }
-  lines.push_back({"sd", study.law ? study.law->sd : kNaN, kNaN, published_value(study, "sd"), kNaN, kNaN});
+  lines.push_back({"sd", study.law ? study.law->sd : kNaN});
   lines.push_back(of_equal_pellets(study));
   lines.push_back(range_line(study, "segregation", [](const StudyBed& b) { return b.segregation; }));
   return lines;

@@ -17,13 +17,14 @@ extern const std::vector<StudyColumn> kStudyColumns;
 /// As people read it: lengths in millimetres.
 std::string shown(const StudyColumn& c, const StudyBed& b);
 
-/// One quantity of the law: fitted value, half of its interval, published value, least and largest.
+/// One quantity of the law: fitted value, half of its interval, least and largest.
 struct LawLine {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::string name;
-  double value = kNone, half = kNone, published = kNone, low = kNone, high = kNone;
+  double value = kNone, half = kNone, low = kNone, high = kNone;
 };
-/// NaN when it is not there.
+/// NaN where it is not there.
+Published published_of(const Study& study, const std::string& name);
 double published_value(const Study& study, const std::string& name);
 /// Porosity of the beds of equal pellets: mean, least and largest.
 LawLine of_equal_pellets(const Study& study);

@@ -11,7 +11,6 @@
 namespace packbed {
 namespace {
 
-constexpr double kNaN = LawLine::kNone;
 constexpr int kCurve = 100;  // points that a law is drawn with
 
 std::string beds_csv(const Study& study) {
@@ -32,8 +31,7 @@ std::string or_nothing(double v) {
 std::string law_csv(const Study& study) {
   std::string out = "quantity,value,half_width,least,largest,published,published_low,published_high\n";
   for (const LawLine& l : law_lines(study)) {
-    const auto found = study.published.find(l.name);
-    const Published p = found == study.published.end() ? Published{kNaN, kNaN, kNaN} : found->second;
+    const Published p = published_of(study, l.name);
     out += fmt::format("{},{},{},{},{},{},{},{}\n", l.name, or_nothing(l.value), or_nothing(l.half),
                        or_nothing(l.low), or_nothing(l.high), or_nothing(p.value), or_nothing(p.low),
                        or_nothing(p.high));
@@ -98,11 +96,10 @@ Series curve(const PowerLaw& law, double scale, std::size_t ink, const std::stri
 
 /// The ends of a published range, as lines across.
 void add_range(std::vector<Series>& series, const Study& study, const std::string& name, double wide) {
-  const auto found = study.published.find(name);
-  if (found == study.published.end() || !std::isfinite(found->second.low)) return;
-  for (const double v : {found->second.low, found->second.high})
-    series.push_back(
-        {{0, wide}, {v, v}, chart_ink(1), false, v == found->second.low ? "published range" : ""});
+  const Published p = published_of(study, name);
+  if (!std::isfinite(p.low)) return;
+  for (const double v : {p.low, p.high})
+    series.push_back({{0, wide}, {v, v}, chart_ink(1), false, v == p.low ? "published range" : ""});
 }
 
 std::optional<PowerLaw> published_law(const Study& study) {

@@ -200,8 +200,9 @@ void end_watches(const Model& model, State& state) {
     if (z.is[i] == Sleepers::kShore && (looks || (!light && has_lost_support(model, state, i))))
       z.is[i] = Sleepers::kWaking;
     if (z.is[i] != Sleepers::kAwake) continue;
-    const bool settled = light ? has_settled_lightly(model, state, i, watch) : has_settled(model, state, i);
-    if (z.watched[i] && settled) {
+    const bool settled =
+        z.watched[i] && (light ? has_settled_lightly(model, state, i, watch) : has_settled(model, state, i));
+    if (settled) {
       put_to_sleep(model, state, i);
     } else {
       z.anchor[i] = state.spheres.place[i];
