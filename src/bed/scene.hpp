@@ -163,8 +163,9 @@ struct Scene {
   Shaking shaking;
   AnalysisWish analysis;
   OutputWish output;
-  double overlap_limit =
-      0.005;  // largest overlap at rest that the audit lets pass, fraction of the smallest thickness
+  // largest overlaps that the audit lets pass, at rest and during the run, fractions of the smallest
+  // thickness
+  double overlap_limit = 0.005, impact_limit = 0.1;
 };
 
 }  // namespace packbed

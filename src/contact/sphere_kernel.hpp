@@ -86,8 +86,8 @@ PACKBED_INLINE AllSums<L> load(const SphereTally& t) {
   AllSums<L> sums;
   for (std::size_t p = 0; p < kParts<L>; ++p) {
     const std::size_t first = p * kWidth<L>;
-    sums[p] = {part<L>(t.damped, first),  part<L>(t.rubbed, first), part<L>(t.deepest, first),
-               part<L>(t.touches, first), part<L>(t.deep, first),   part<L>(t.very_deep, first)};
+    sums[p] = {part<L>(t.damped, first), part<L>(t.rubbed, first), part<L>(t.deepest, first),
+               part<L>(t.touches, first), part<L>(t.deep, first)};
   }
   return sums;
 }
@@ -100,7 +100,6 @@ PACKBED_INLINE void store(const AllSums<L>& sums, SphereTally& t) {
     part<L>(t.deepest, first) = sums[p].deepest;
     part<L>(t.touches, first) = sums[p].touches;
     part<L>(t.deep, first) = sums[p].deep;
-    part<L>(t.very_deep, first) = sums[p].very_deep;
   }
 }
 

@@ -67,9 +67,9 @@ struct SphereTouch {
 /// What the contacts have lost, and how deep they were.
 template <class L>
 struct SphereSums {
-  L damped{}, rubbed{};              // [J]
-  L deepest{};                       // fraction of the thickness
-  L touches{}, deep{}, very_deep{};  // evaluations that touch, deeper than 5 % and 10 %
+  L damped{}, rubbed{};  // [J]
+  L deepest{};           // fraction of the thickness
+  L touches{}, deep{};   // evaluations that touch, deeper than 5 %
 };
 
 template <class L>
@@ -200,7 +200,6 @@ PACKBED_INLINE SphereForce<L> resolve(Form, const SphereLaw& law, const SphereTo
   if (const Flags<L> deep = delta > smaller(tally.deepest, all<L>(0.05)) * t.thickness; any(deep)) {
     tally.deepest = deep ? larger(tally.deepest, delta / t.thickness) : tally.deepest;
     tally.deep += delta > 0.05 * t.thickness ? all<L>(1.0) : none;
-    tally.very_deep += delta > 0.1 * t.thickness ? all<L>(1.0) : none;
   }
   return out;
 }

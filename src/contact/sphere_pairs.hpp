@@ -46,9 +46,9 @@ struct SphereMemory {
 
 /// SphereSums in memory.
 struct SphereTally {
-  LaneRow damped, rubbed;            // [J]
-  LaneRow deepest;                   // fraction of the thickness
-  LaneRow touches, deep, very_deep;  // evaluations that touch, deeper than 5 % and 10 %
+  LaneRow damped, rubbed;  // [J]
+  LaneRow deepest;         // fraction of the thickness
+  LaneRow touches, deep;   // evaluations that touch, deeper than 5 %
 };
 
 /// A flat wall: the points x with normal . x > offset are free. A round one: normal zero, and the points

@@ -41,6 +41,11 @@ void general_keys(Fields& f, CaseRecord& r) {
           .meaning = "largest overlap at rest that the audit lets pass, fraction of the smallest thickness",
           .range = above_zero_to(1)},
          r.overlap_limit);
+  f.real({.name = "impact_limit",
+          .meaning =
+              "largest overlap during the run that the audit lets pass, fraction of the smallest thickness",
+          .range = above_zero_to(1)},
+         r.impact_limit);
 }
 
 void pellet_keys(Fields& f, PelletRecord& r) {

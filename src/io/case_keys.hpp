@@ -57,7 +57,7 @@ struct CaseRecord {
   std::string folder, name, method = "mesh", kernel = "auto";
   std::uint64_t seed = 1;
   Vec3 gravity{0, 0, -9.80665};  // [m/s2]
-  double overlap_limit = 0.005;
+  double overlap_limit = 0.005, impact_limit = 0.1;
   std::vector<PelletRecord> pellets = std::vector<PelletRecord>(1);
   ContainerRecord container;
   ContactRecord pellet_contact, wall_contact;

@@ -267,6 +267,7 @@ Scene make_scene(const CaseRecord& r, const std::string& case_file, std::vector<
   scene.seed = r.seed;
   scene.gravity = r.gravity;
   scene.overlap_limit = r.overlap_limit;
+  scene.impact_limit = r.impact_limit;
   scene.field = r.field;
   scene.pellet_contact = contact_law(r.pellet_contact);
   scene.wall_contact = contact_law(r.wall_contact);

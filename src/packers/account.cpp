@@ -78,14 +78,15 @@ void audit_rest(RunRecord& record, const Stepping& s, const RestWatch& rest) {
                        s.rest_drift, rest.rollers));
 }
 
-void audit_impacts(RunRecord& record, const ImpactCount& i) {
+void audit_impacts(RunRecord& record, const Scene& scene, const ImpactCount& i) {
   const double share = i.touches > 0 ? i.deep / i.touches : 0;
   record.overlap.peak = i.peak;
   record.overlap.share_above_5_percent = share;
-  add_line(record, "impacts", share <= kDeepShare && i.very_deep <= 0,
-           fmt::format("deepest overlap during the run {:.2f} % (limit 10 %), {:.4f} % of touches over 5 % "
-                       "(limit {:.1f} %)",
-                       100 * i.peak, 100 * share, 100 * kDeepShare));
+  add_line(
+      record, "impacts", share <= kDeepShare && i.peak <= scene.impact_limit,
+      fmt::format("deepest overlap during the run {:.2f} % (limit {:.0f} %), {:.4f} % of touches over 5 % "
+                  "(limit {:.1f} %)",
+                  100 * i.peak, 100 * scene.impact_limit, 100 * share, 100 * kDeepShare));
 }
 
 void audit_energy(RunRecord& record, const Energy& e) {

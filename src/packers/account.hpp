@@ -26,8 +26,8 @@ struct Energy {
 
 /// Touching evaluations of a run.
 struct ImpactCount {
-  double touches = 0, deep = 0, very_deep = 0;  // all; deeper than 5 % and 10 % of the thickness
-  double peak = 0;                              // greatest depth, fraction of the thickness
+  double touches = 0, deep = 0;  // all; deeper than 5 % of the thickness
+  double peak = 0;               // greatest depth, fraction of the thickness
 };
 
 void add_line(RunRecord& record, const char* name, bool passed, const std::string& finding);
@@ -35,7 +35,7 @@ void add_line(RunRecord& record, const char* name, bool passed, const std::strin
 void audit_pellets(RunRecord& record, const Scene& scene, const Feeder& feeder, int within);
 /// A run of fixed length does not promise rest.
 void audit_rest(RunRecord& record, const Stepping& stepping, const RestWatch& rest);
-void audit_impacts(RunRecord& record, const ImpactCount& impacts);
+void audit_impacts(RunRecord& record, const Scene& scene, const ImpactCount& impacts);
 void audit_energy(RunRecord& record, const Energy& energy);
 /// Upward forces on the pellets from floor and sides against their weight [N].
 void audit_wall_forces(RunRecord& record, double base, double side, double weight,

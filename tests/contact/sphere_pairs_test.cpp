@@ -111,7 +111,7 @@ TEST(SphereLoops, CrowdsTouchAndLoseEnergyInEveryForm) {
       SCOPED_TRACE(std::string(form.name) + ", " + loops.name);
       const Crowd crowd = moved(form, loops);
       EXPECT_GT(total(crowd.tally.touches), 200.0 * kBlocks);
-      EXPECT_GT(total(crowd.tally.very_deep), 0);
+      EXPECT_GT(total(crowd.tally.deep), 0);
       EXPECT_GT(total(crowd.tally.damped), 0);
       if (form.friction > 0) {
         EXPECT_GT(total(crowd.tally.rubbed), 0);

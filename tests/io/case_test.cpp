@@ -46,6 +46,7 @@ TEST(Case, DefaultsOfTheRecordsHold) {
   EXPECT_EQ(s.analysis.voxel, fresh.analysis.voxel);
   EXPECT_EQ(s.output.checkpoint_interval, fresh.output.checkpoint_interval);
   EXPECT_EQ(s.overlap_limit, fresh.overlap_limit);
+  EXPECT_EQ(s.impact_limit, fresh.impact_limit);
 }
 
 TEST(Case, WallFollowsThePelletsUnlessToldOtherwise) {

@@ -122,7 +122,7 @@ void fill_record(RunRecord& record, const Scene& scene, const Model& model, cons
   const Ledger& l = state.ledger;
   audit_pellets(record, scene, feeder, within);
   audit_rest(record, model.stepping, state.rest);
-  audit_impacts(record, {l.touches, l.deep_touches, l.very_deep_touches, l.peak});
+  audit_impacts(record, scene, {l.touches, l.deep_touches, l.peak});
   audit_energy(record, energy_of(model, state));
   audit_thin_walls(record, model, state);
   audit_walls(record, model, state);

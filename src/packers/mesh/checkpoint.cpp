@@ -5,7 +5,7 @@
 namespace packbed::mesh {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'0000000b;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'0000000c;  // changes with any change of State
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>

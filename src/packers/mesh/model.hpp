@@ -93,8 +93,8 @@ struct PairRecord {
   double damped = 0, rubbed = 0;  // lost since the last search [J]
   double held = 0;                // size of the force when one of the two fell asleep [N]
   double peak = 0;                // greatest depth since the last search, fraction of the thickness
-  // touching steps since the last search, and those deeper than 5 % and 10 % of the thickness
-  std::uint32_t touches = 0, deep_touches = 0, very_deep_touches = 0;
+  // touching steps since the last search, and those deeper than 5 % of the thickness
+  std::uint32_t touches = 0, deep_touches = 0;
 };
 
 /// A patch of a pair of the field kernel, between steps.
@@ -131,9 +131,9 @@ struct Pairs {
 
 /// Totals since the start, each added in fixed order.
 struct Ledger {
-  double input = 0, damped = 0, rubbed = 0, removed = 0;        // [J]
-  double peak = 0;                                              // greatest depth, fraction of the thickness
-  double touches = 0, deep_touches = 0, very_deep_touches = 0;  // see PairRecord
+  double input = 0, damped = 0, rubbed = 0, removed = 0;  // [J]
+  double peak = 0;                                        // greatest depth, fraction of the thickness
+  double touches = 0, deep_touches = 0;                   // see PairRecord
   double searches = 0, wakes = 0, sleeps = 0;
   double stride = 0;             // farthest way of a body in one step, fraction of the thinnest wall
   double awake = 0, active = 0;  // bodies stepped and pairs walked over, added up over all steps

@@ -61,7 +61,6 @@ void count_touch(const Model& model, const Bodies& bodies, const BodyPair& pair,
   r.peak = std::max(r.peak, fraction);
   ++r.touches;
   r.deep_touches += fraction > 0.05;
-  r.very_deep_touches += fraction > 0.1;
 }
 
 void part(Load& load, PairRecord& r) {

@@ -158,9 +158,8 @@ void settle_accounts(State& state) {
     state.ledger.peak = std::max(state.ledger.peak, r.peak);
     state.ledger.touches += r.touches;
     state.ledger.deep_touches += r.deep_touches;
-    state.ledger.very_deep_touches += r.very_deep_touches;
     r.damped = r.rubbed = r.peak = 0;
-    r.touches = r.deep_touches = r.very_deep_touches = 0;
+    r.touches = r.deep_touches = 0;
   }
 }
 

@@ -179,7 +179,7 @@ void fill_record(RunRecord& record, const Scene& scene, const Model& model, Stat
   const Contacts contacts = contacts_of(model, state);
   audit_pellets(record, scene, feeder, within);
   audit_rest(record, model.stepping, state.rest);
-  audit_impacts(record, {l.touches, l.deep, l.very_deep, l.peak});
+  audit_impacts(record, scene, {l.touches, l.deep, l.peak});
   audit_energy(record, books_of(model, state, contacts));
   audit_walls(record, model, state, contacts);
   const double steps = std::max(1.0, static_cast<double>(state.steps));

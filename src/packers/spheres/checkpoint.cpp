@@ -5,7 +5,7 @@
 namespace packbed::spheres {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'53000005;  // changes with any change of State
+constexpr std::uint64_t kFormat = 0x706b6264'53000006;  // changes with any change of State
 
 template <class Archive, class L>
 void visit_list(Archive& io, L& list) {

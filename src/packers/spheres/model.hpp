@@ -160,7 +160,7 @@ struct State {
   double wall_s = 0, cpu_s = 0;  // spent before the last checkpoint
   struct {
     double input = 0, damped = 0, rubbed = 0;  // [J]
-    double peak = 0, touches = 0, deep = 0, very_deep = 0;
+    double peak = 0, touches = 0, deep = 0;
     double listed = 0;  // pairs walked over, added up over all steps
   } ledger;
 };

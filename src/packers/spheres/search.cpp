@@ -153,7 +153,6 @@ void settle_accounts(State& state) {
     for (const double deepest : t.deepest.value) l.peak = std::max(l.peak, deepest);
     l.touches += total(t.touches);
     l.deep += total(t.deep);
-    l.very_deep += total(t.very_deep);
     t = SphereTally{};
   }
 }
