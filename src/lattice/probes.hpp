@@ -1,7 +1,8 @@
 #pragma once
 // A few cells at the surface of a turned pellet, found without drawing it: most turns that do not fit are
 // seen by one of them.
-#include <cmath>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "lattice/stamp.hpp"
@@ -14,34 +15,44 @@ class Probes {
   Probes(const Shape& shape, double pitch);
 
   /// Whether taken(cell), counted from the pellet's own cell, is true of one of them. Each is a cell of
-  /// StampMaker::make's stamp.
+  /// StampMaker::make's stamp. The eight numbered `first` are asked first; those that met something are
+  /// left there, for the next turn of the same pellet often meets the same.
   template <class Taken>
-  bool meet(double scale, const Quat& rotation, const Vec3& phase, const Taken& taken) const {
-    constexpr double kInset = 0.3;  // cells
-    const double radius = scale * radius_, bore = scale * bore_, half = scale * half_height_;
-    const Mat3 turn = rotation.toRotationMatrix();
-    const Vec3 axis = turn.col(2);
-    for (const Point& p : points_) {
-      const double out = p.in_bore ? bore + kInset : radius - kInset;
-      const Vec3 at =
-          phase + turn * Vec3(out * p.place.x(), out * p.place.y(), (half - kInset) * p.place.z());
-      const Cell cell{static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())),
-                      static_cast<int>(std::lround(at.z()))};
-      const Vec3 centre = Vec3(cell[0], cell[1], cell[2]) - phase;
-      const double along = centre.dot(axis), across = centre.squaredNorm() - along * along;
-      if (std::abs(along) <= half && across <= radius * radius && across >= bore * bore && taken(cell))
-        return true;
+  bool meet(double scale, const Quat& rotation, const Vec3& phase, std::uint8_t& first,
+            const Taken& taken) const {
+    const Placed placed = place(scale, rotation, phase);
+    for (std::size_t k = 0; k < eights_.size(); ++k) {
+      const std::size_t at = k == 0 ? first : k <= first ? k - 1 : k;
+      Cells cells;
+      find_cells(eights_[at], placed, cells);
+      for (std::size_t l = 0; l < kLane; ++l)
+        if (cells.solid[l] && taken(Cell{cells.x[l], cells.y[l], cells.z[l]})) {
+          first = static_cast<std::uint8_t>(at);
+          return true;
+        }
     }
     return false;
   }
 
  private:
-  struct Point {
-    Vec3 place;  // on a cylinder of radius and half height 1
-    bool in_bore;
+  static constexpr std::size_t kLane = 8;
+  using Row = std::array<double, kLane>;
+  /// Places on the pellet's surface are scale * grown + fixed [cells]; the second brings them inside.
+  struct Eight {
+    Row grown[3], fixed[3];
   };
+  struct Placed {
+    double turn[3][3], phase[3], axis[3];
+    double scale, half_height, radius2, bore2;  // [cells], squared
+  };
+  struct Cells {
+    std::array<std::int32_t, kLane> x, y, z, solid;
+  };
+  Placed place(double scale, const Quat& rotation, const Vec3& phase) const;
+  static void find_cells(const Eight& eight, const Placed& placed, Cells& cells);
+
   double radius_ = 0, bore_ = 0, half_height_ = 0;  // at scale 1 [cells]
-  std::vector<Point> points_;
+  std::vector<Eight> eights_;
 };
 
 }  // namespace packbed

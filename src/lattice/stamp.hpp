@@ -95,13 +95,10 @@ inline std::uint64_t box_bits(const Stamp& stamp, int x, int y, int z) {
   if (y < 0 || y >= stamp.size[1] || z < 0 || z >= stamp.size[2]) return 0;
   const std::uint64_t* row =
       stamp.data() + static_cast<std::size_t>(z) * stamp.slice() + static_cast<std::size_t>(y);
+  if (stamp.words == 1) return x <= -64 || x >= 64 ? 0 : x < 0 ? *row << -x : *row >> x;
   return bits_from(x, [&](int w) {
     return w < 0 || w >= stamp.words ? std::uint64_t{0} : row[static_cast<std::size_t>(w) * stamp.column()];
   });
-}
-/// The same, counted from the pellet's own cell.
-inline std::uint64_t cells_from(const Stamp& stamp, int x, int y, int z) {
-  return box_bits(stamp, x - stamp.low[0], y - stamp.low[1], z - stamp.low[2]);
 }
 
 /// Calls visit(x, y, z) for every solid cell, counted from the pellet's cell, in the order of the bits.

@@ -118,16 +118,29 @@ TEST(Probes, AreCellsOfThePellet) {
         EXPECT_TRUE(has_cell(stamp, c));
         return false;
       };
-      EXPECT_FALSE(probes.meet(scale, rotation, phase, look));
+      std::uint8_t first = 3;
+      EXPECT_FALSE(probes.meet(scale, rotation, phase, first, look));
+      EXPECT_EQ(first, 3);
       EXPECT_GT(seen, 40);  // of some hundred points; the cells of the others have their centres outside
-      EXPECT_TRUE(probes.meet(scale, rotation, phase, [](const Cell&) { return true; }));
+      EXPECT_TRUE(probes.meet(scale, rotation, phase, first, [](const Cell&) { return true; }));
+      Cell met{};  // what was met is asked first the next time, and all others are asked as well
+      int asked = 0;
+      const auto last = [&](const Cell& c) { return met = c, ++asked == seen; };
+      EXPECT_TRUE(probes.meet(scale, rotation, phase, first, last));
+      const Cell before = met;
+      bool again = false;
+      asked = 0;
+      EXPECT_TRUE(probes.meet(scale, rotation, phase, first,
+                              [&](const Cell& c) { return again = c == before, ++asked, again; }));
+      EXPECT_LE(asked, 8);
     }
   }
 }
 
 TEST(Probes, ThereAreNoneOfOtherShapes) {
   const Probes probes(*test::sphere(3e-3), kPitch);
-  EXPECT_FALSE(probes.meet(1, Quat::Identity(), Vec3::Zero(), [](const Cell&) { return true; }));
+  std::uint8_t first = 0;
+  EXPECT_FALSE(probes.meet(1, Quat::Identity(), Vec3::Zero(), first, [](const Cell&) { return true; }));
 }
 
 }  // namespace

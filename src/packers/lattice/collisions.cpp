@@ -1,7 +1,10 @@
 #include "packers/lattice/collisions.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "math/simd.hpp"
 
@@ -9,6 +12,24 @@ namespace packbed::lattice {
 namespace {
 
 constexpr int kLane = 16;
+
+/// Round all cells of the hits, counted from the pellet's cell.
+CellBox box_of(const Tried& tried) {
+  CellBox box{tried.by, tried.by};
+  Cell low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), tried.hits.front().slice},
+      high{0, 0, tried.hits.back().slice};  // the hits come slice by slice
+  for (const HitRow& r : tried.hits) {
+    low[0] = std::min(low[0], 64 * r.word + std::countr_zero(r.bits));
+    high[0] = std::max(high[0], 64 * r.word + 63 - std::countl_zero(r.bits));
+    low[1] = std::min(low[1], r.row);
+    high[1] = std::max(high[1], r.row);
+  }
+  for (std::size_t d = 0; d < 3; ++d) {
+    box.low[d] += tried.stamp.low[d] + low[d];
+    box.high[d] += tried.stamp.low[d] + high[d] + 1;
+  }
+  return box;
+}
 
 bool meet(const CellBox& a, const CellBox& b) {
   for (std::size_t d = 0; d < 3; ++d)
@@ -82,8 +103,9 @@ void CellColumns::add(std::uint64_t bits, int x0, int y0, int z0) {
   }
 }
 
-void Collisions::find_others(const State& state, std::size_t i, const Tried& tried) {
-  const CellBox box = box_of(tried.stamp, state.cell[i]);
+void Collisions::find_others(const State& state, std::size_t i, const CellBox& hit) {
+  CellBox box = hit;  // on the lattice
+  for (std::size_t d = 0; d < 3; ++d) box.low[d] += state.cell[i][d], box.high[d] += state.cell[i][d];
   count_ = last_ = 0;
   for (std::uint32_t k = state.near_from[i]; k < state.near_from[i + 1]; ++k) {
     const std::uint32_t j = state.near[k];
@@ -92,17 +114,22 @@ void Collisions::find_others(const State& state, std::size_t i, const Tried& tri
     if (count_ == others_.size()) others_.emplace_back();
     Other& other = others_[count_++];
     other.pellet = j;
-    for (std::size_t d = 0; d < 3; ++d) other.offset[d] = state.cell[j][d] - state.cell[i][d];
+    other.stamp = &state.stamp[j];
+    for (std::size_t d = 0; d < 3; ++d) {
+      other.offset[d] = state.cell[j][d] - state.cell[i][d];
+      other.corner[d] = other.offset[d] + other.stamp->low[d];
+    }
     other.cells.clear();
   }
 }
 
-void Collisions::attribute(const State& state, std::uint64_t bits, int x, int y, int z) {
-  for (std::size_t k = 0; k < count_ && bits; ++k) {  // the one that had the last cells first
-    const std::size_t at = k == 0 ? last_ : k <= last_ ? k - 1 : k;
+void Collisions::attribute(std::uint64_t bits, int x, int y, int z) {
+  const std::size_t first = last_;  // the one that had the last cells
+  for (std::size_t k = 0; k < count_ && bits; ++k) {
+    const std::size_t at = k == 0 ? first : k <= first ? k - 1 : k;
     Other& other = others_[at];
-    const Cell& o = other.offset;
-    const std::uint64_t its = bits & cells_from(state.stamp[other.pellet], x - o[0], y - o[1], z - o[2]);
+    const Cell &o = other.offset, &corner = other.corner;
+    const std::uint64_t its = bits & box_bits(*other.stamp, x - corner[0], y - corner[1], z - corner[2]);
     if (!its) continue;
     other.cells.add(its, x - o[0], y - o[1], z - o[2]);
     bits &= ~its;
@@ -112,12 +139,13 @@ void Collisions::attribute(const State& state, std::uint64_t bits, int x, int y,
 
 void Collisions::push(const State& state, std::size_t i, const Tried& tried, std::vector<Push>& pushes) {
   own_.clear();
-  find_others(state, i, tried);
+  count_ = 0;
+  if (!tried.hits.empty()) find_others(state, i, box_of(tried));
   for (const HitRow& r : tried.hits) {
     const int x = tried.by[0] + tried.stamp.low[0] + 64 * r.word,
               y = tried.by[1] + tried.stamp.low[1] + r.row, z = tried.by[2] + tried.stamp.low[2] + r.slice;
     own_.add(r.bits, x, y, z);
-    attribute(state, r.bits, x, y, z);
+    attribute(r.bits, x, y, z);
   }
   pushes.push_back(push_of(own_, i, tried.phase, tried.face));
   for (std::size_t k = 0; k < count_; ++k)

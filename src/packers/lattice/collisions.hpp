@@ -41,11 +41,12 @@ class Collisions {
  private:
   struct Other {
     std::uint32_t pellet = 0;
-    Cell offset{0, 0, 0};  // of its cell from that of pellet i
+    const Stamp* stamp = nullptr;
+    Cell offset{0, 0, 0}, corner{0, 0, 0};  // of its cell and of its box, from the cell of pellet i
     CellColumns cells;
   };
-  void find_others(const State& state, std::size_t i, const Tried& tried);
-  void attribute(const State& state, std::uint64_t bits, int x, int y, int z);
+  void find_others(const State& state, std::size_t i, const CellBox& hit);
+  void attribute(std::uint64_t bits, int x, int y, int z);
 
   CellColumns own_;
   std::vector<Other> others_;  // the first count_ of them

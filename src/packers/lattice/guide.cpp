@@ -19,8 +19,9 @@ class Turn {
     work.surroundings.look(state.lattice, state.stamp[i], home_, reach());
   }
   ~Turn() {
-    if (!lifted_) return;
-    state_.lattice.flip(state_.stamp[i_], state_.cell[i_]);
+    const Cell by = moved({0, 0, 0});
+    if (!lifted_ && by == Cell{0, 0, 0}) return;
+    land(by);
     state_.box[i_] = box_of(state_.stamp[i_], state_.cell[i_]);
   }
   Turn(const Turn&) = delete;
@@ -36,7 +37,6 @@ class Turn {
       collide({stamp, state_.phase[i_], by, work_.hits.rows(), Vec3::Unit(axis) * -sign});
       return;
     }
-    lift();
     state_.cell[i_][static_cast<std::size_t>(axis)] += sign;
     ++turns_.tally.moved;
   }
@@ -52,11 +52,12 @@ class Turn {
     };
     if (!model_.rules.turn_cells &&
         model_.probes[state_.kind[i_]].meet(state_.scale[i_], turned_rotation(state_, i_, turn),
-                                            StampMaker::first_phase(), taken))
+                                            StampMaker::first_phase(), state_.probe[i_], taken))
       return;
     Turned turned = turned_by(model_, state_, i_, turn, work_.maker);
     if (work_.surroundings.hits(turned.stamp, here)) return;
-    lift();
+    state_.lattice.flip(state_.stamp[i_], home_);
+    lifted_ = true;
     take(state_, i_, std::move(turned), turns_.tally);
   }
 
@@ -77,9 +78,17 @@ class Turn {
     for (std::size_t d = 0; d < 3; ++d) out[d] = state_.cell[i_][d] - home_[d] + by[d];
     return out;
   }
-  void lift() {
-    if (!lifted_) state_.lattice.flip(state_.stamp[i_], home_);
-    lifted_ = true;
+  /// Puts the pellet down where its moves have brought it; one that has only moved along y or z in one go.
+  void land(const Cell& by) {
+    const Stamp& stamp = state_.stamp[i_];
+    for (const int axis : {1, 2})
+      if (const int step = by[static_cast<std::size_t>(axis)];
+          !lifted_ && std::abs(by[0]) + std::abs(by[1]) + std::abs(by[2]) == std::abs(step)) {
+        Cell at = home_;
+        return state_.lattice.move(stamp, at, axis, step);
+      }
+    if (!lifted_) state_.lattice.flip(stamp, home_);
+    state_.lattice.flip(stamp, state_.cell[i_]);
   }
   void collide(const Tried& tried) { work_.collisions.push(state_, i_, tried, turns_.pushes); }
 
@@ -116,6 +125,7 @@ void move_digicgp(const Model& model, State& state, std::size_t i, Workspace& wo
 
 void find_near(const Model& model, State& state) {
   state.box.resize(state.size());
+  state.probe.resize(state.size());
   for (std::size_t i = 0; i < state.size(); ++i) state.box[i] = box_of(state.stamp[i], state.cell[i]);
   const auto roamed = [&](std::size_t i) {
     for (std::size_t d = 0; d < 3; ++d)

@@ -67,10 +67,11 @@ struct State {
   std::vector<Guide> guide;  // digicgp
   // digicgp: pellets that may reach pellet i before the next search, near[near_from[i] .. near_from[i + 1])
   std::vector<std::uint32_t> near_from, near;
-  std::vector<CellBox> box;      // digicgp: of each pellet on the lattice
-  std::vector<Cell> near_since;  // cells of the pellets at the search
-  std::vector<int> slab;         // of height, in this step
-  std::vector<Pellet> waiting;   // fed, but there is no room for them yet
+  std::vector<CellBox> box;         // digicgp: of each pellet on the lattice
+  std::vector<std::uint8_t> probe;  // digicgp: probes that met something last; of no influence
+  std::vector<Cell> near_since;     // cells of the pellets at the search
+  std::vector<int> slab;            // of height, in this step
+  std::vector<Pellet> waiting;      // fed, but there is no room for them yet
 
   std::int64_t steps = 0;
   double mean_height = 0;          // of the cells at the start of the rest window [cells]
