@@ -48,6 +48,7 @@ struct Touch {
   std::uint32_t seen_a = 0, seen_b = 0;  // versions of the stamps that were counted; 0: none
   std::uint32_t meets = 0;               // they share cells
   std::uint32_t known = 0;               // there is a depth of the last step
+  std::uint32_t age = 0;                 // steps that it has touched without a break
   double depth = 0;                      // [m]; <= 0: apart
   // what the shared cells tell, with a moved towards b by `lead` cells, so that a touch is seen before it
   // begins; counted anew when either stamp has changed

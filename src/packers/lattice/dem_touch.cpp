@@ -9,11 +9,13 @@
 namespace packbed::lattice {
 namespace {
 
-/// Of the bias in a step: what recounting has changed comes in over some 25 contact times, so slowly that the
-/// dashpots take all of its energy. At once, half a voxel of depth is a kick of some 0.1 m/s and no bed
-/// cools; over five contact times the pellets of the surface still dance, and shake the bed denser than it
-/// should be (0.54 against 0.50 for 100 cylinders of 14 x 14 x 9 cells; the mesh packer has 0.505).
-constexpr double kFade = 0.998;
+/// Steps over which the bias fades: what recounting has changed comes in over some 25 contact times, so
+/// slowly that the dashpots take all of its energy. At once, half a voxel of depth is a kick of some 0.1 m/s
+/// and no bed cools; over five contact times the pellets of the surface still dance, and shake the bed denser
+/// than it should be (0.54 against 0.50 for 100 cylinders of 14 x 14 x 9 cells; the mesh packer has 0.505). A
+/// touch that has lasted longer takes as long as it has lasted: beads with walls of five cells dance for ever
+/// otherwise, for between many touches a count changes all the time.
+constexpr double kFade = 500;
 
 /// Where the normal on a is looked for before cells tell: from b's centre, or from the wall.
 Vec3 first_guess(const DemState& state, const Touch& t) {
@@ -70,7 +72,7 @@ struct Place {
 bool find_place(const DemModel& model, const DemState& state, bool counted, Touch& t, Place& place) {
   t.depth = 0;
   if (!t.meets) {
-    t.known = 0;
+    t.known = t.age = 0;
     return false;
   }
   const double pitch = model.base.frame.pitch;
@@ -89,10 +91,12 @@ bool find_place(const DemModel& model, const DemState& state, bool counted, Touc
     way -= way_since(state, t.b, place.arm_b);
   }
   const double told = pitch * (patch.depth + lead.dot(t.normal)) - way.dot(t.normal);
-  t.bias = counted ? (t.known ? t.last : std::min(0.0, told)) - told : kFade * t.bias;
+  t.bias = counted ? (t.known ? t.last : std::min(0.0, told)) - told
+                   : t.bias - t.bias / std::max<double>(kFade, t.age);
   t.known = 1;
   t.last = told + t.bias;
   t.depth = std::max(0.0, t.last);
+  t.age = t.depth > 0 ? t.age + 1 : 0;
   return t.depth > 0;
 }
 
