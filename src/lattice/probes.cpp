@@ -49,7 +49,6 @@ Probes::Placed Probes::place(double scale, const Quat& rotation, const Vec3& pha
   for (int d = 0; d < 3; ++d) {
     for (int e = 0; e < 3; ++e) p.turn[d][e] = turn(d, e);
     p.phase[d] = phase[d];
-    p.axis[d] = turn(d, 2);
   }
   p.scale = scale;
   p.half_height = scale * half_height_;
@@ -69,7 +68,7 @@ PACKBED_WIDE void Probes::find_cells(const Eight& eight, const Placed& p, Cells&
       const double at = p.phase[d] + (p.turn[d][0] * x + p.turn[d][1] * y + p.turn[d][2] * z);
       cell[d] = static_cast<std::int32_t>(at + (at < 0 ? -0.5 : 0.5));
       const double centre = cell[d] - p.phase[d];
-      along += centre * p.axis[d];
+      along += centre * p.turn[d][2];
       square += centre * centre;
     }
     const double across = square - along * along;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lattice/stamp.hpp"
+#include "math/with_first.hpp"
 
 namespace packbed {
 
@@ -22,7 +23,7 @@ class Probes {
             const Taken& taken) const {
     const Placed placed = place(scale, rotation, phase);
     for (std::size_t k = 0; k < eights_.size(); ++k) {
-      const std::size_t at = k == 0 ? first : k <= first ? k - 1 : k;
+      const std::size_t at = with_first(first, k);
       Cells cells;
       find_cells(eights_[at], placed, cells);
       for (std::size_t l = 0; l < kLane; ++l)
@@ -42,7 +43,7 @@ class Probes {
     Row grown[3], fixed[3];
   };
   struct Placed {
-    double turn[3][3], phase[3], axis[3];
+    double turn[3][3], phase[3];
     double scale, half_height, radius2, bore2;  // [cells], squared
   };
   struct Cells {

@@ -82,11 +82,10 @@ void audit_impacts(RunRecord& record, const Scene& scene, const ImpactCount& i) 
   const double share = i.touches > 0 ? i.deep / i.touches : 0;
   record.overlap.peak = i.peak;
   record.overlap.share_above_5_percent = share;
-  add_line(
-      record, "impacts", share <= kDeepShare && i.peak <= scene.impact_limit,
-      fmt::format("deepest overlap during the run {:.2f} % (limit {:.0f} %), {:.4f} % of touches over 5 % "
-                  "(limit {:.1f} %)",
-                  100 * i.peak, 100 * scene.impact_limit, 100 * share, 100 * kDeepShare));
+  add_line(record, "impacts", share <= kDeepShare && i.peak <= scene.impact_limit,
+           fmt::format("deepest overlap during the run {:.2f} % (limit {:g} %), {:.4f} % of touches over 5 % "
+                       "(limit {:.1f} %)",
+                       100 * i.peak, 100 * scene.impact_limit, 100 * share, 100 * kDeepShare));
 }
 
 void audit_energy(RunRecord& record, const Energy& e) {

@@ -112,6 +112,7 @@ TEST(SphereLoops, CrowdsTouchAndLoseEnergyInEveryForm) {
       const Crowd crowd = moved(form, loops);
       EXPECT_GT(total(crowd.tally.touches), 200.0 * kBlocks);
       EXPECT_GT(total(crowd.tally.deep), 0);
+      EXPECT_GT(std::ranges::max(crowd.tally.deepest.value), 0.1);
       EXPECT_GT(total(crowd.tally.damped), 0);
       if (form.friction > 0) {
         EXPECT_GT(total(crowd.tally.rubbed), 0);

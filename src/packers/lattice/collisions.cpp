@@ -7,15 +7,16 @@
 #include <limits>
 
 #include "math/simd.hpp"
+#include "math/with_first.hpp"
 
 namespace packbed::lattice {
 namespace {
 
 constexpr int kLane = 16;
 
-/// Round all cells of the hits, counted from the pellet's cell.
-CellBox box_of(const Tried& tried) {
-  CellBox box{tried.by, tried.by};
+/// Round all cells that were hit, of a pellet in the cell `at`.
+CellBox box_of_hits(const Tried& tried, const Cell& at) {
+  CellBox box{at, at};
   Cell low{std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), tried.hits.front().slice},
       high{0, 0, tried.hits.back().slice};  // the hits come slice by slice
   for (const HitRow& r : tried.hits) {
@@ -25,8 +26,9 @@ CellBox box_of(const Tried& tried) {
     high[1] = std::max(high[1], r.row);
   }
   for (std::size_t d = 0; d < 3; ++d) {
-    box.low[d] += tried.stamp.low[d] + low[d];
-    box.high[d] += tried.stamp.low[d] + high[d] + 1;
+    const int corner = tried.by[d] + tried.stamp.low[d];
+    box.low[d] += corner + low[d];
+    box.high[d] += corner + high[d] + 1;
   }
   return box;
 }
@@ -103,10 +105,10 @@ void CellColumns::add(std::uint64_t bits, int x0, int y0, int z0) {
   }
 }
 
-void Collisions::find_others(const State& state, std::size_t i, const CellBox& hit) {
-  CellBox box = hit;  // on the lattice
-  for (std::size_t d = 0; d < 3; ++d) box.low[d] += state.cell[i][d], box.high[d] += state.cell[i][d];
+void Collisions::find_others(const State& state, std::size_t i, const Tried& tried) {
   count_ = last_ = 0;
+  if (tried.hits.empty()) return;
+  const CellBox box = box_of_hits(tried, state.cell[i]);
   for (std::uint32_t k = state.near_from[i]; k < state.near_from[i + 1]; ++k) {
     const std::uint32_t j = state.near[k];
     if (std::abs(state.slab[j] - state.slab[i]) > 1) continue;  // out of reach, and perhaps on the move
@@ -126,7 +128,7 @@ void Collisions::find_others(const State& state, std::size_t i, const CellBox& h
 void Collisions::attribute(std::uint64_t bits, int x, int y, int z) {
   const std::size_t first = last_;  // the one that had the last cells
   for (std::size_t k = 0; k < count_ && bits; ++k) {
-    const std::size_t at = k == 0 ? first : k <= first ? k - 1 : k;
+    const std::size_t at = with_first(first, k);
     Other& other = others_[at];
     const Cell &o = other.offset, &corner = other.corner;
     const std::uint64_t its = bits & box_bits(*other.stamp, x - corner[0], y - corner[1], z - corner[2]);
@@ -139,8 +141,7 @@ void Collisions::attribute(std::uint64_t bits, int x, int y, int z) {
 
 void Collisions::push(const State& state, std::size_t i, const Tried& tried, std::vector<Push>& pushes) {
   own_.clear();
-  count_ = 0;
-  if (!tried.hits.empty()) find_others(state, i, box_of(tried));
+  find_others(state, i, tried);
   for (const HitRow& r : tried.hits) {
     const int x = tried.by[0] + tried.stamp.low[0] + 64 * r.word,
               y = tried.by[1] + tried.stamp.low[1] + r.row, z = tried.by[2] + tried.stamp.low[2] + r.slice;

@@ -45,7 +45,7 @@ class Collisions {
     Cell offset{0, 0, 0}, corner{0, 0, 0};  // of its cell and of its box, from the cell of pellet i
     CellColumns cells;
   };
-  void find_others(const State& state, std::size_t i, const CellBox& hit);
+  void find_others(const State& state, std::size_t i, const Tried& tried);
   void attribute(std::uint64_t bits, int x, int y, int z);
 
   CellColumns own_;

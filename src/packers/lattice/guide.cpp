@@ -78,15 +78,15 @@ class Turn {
     for (std::size_t d = 0; d < 3; ++d) out[d] = state_.cell[i_][d] - home_[d] + by[d];
     return out;
   }
-  /// Puts the pellet down where its moves have brought it; one that has only moved along y or z in one go.
+  /// Puts the pellet down where its moves, at most one along each axis, have brought it.
   void land(const Cell& by) {
     const Stamp& stamp = state_.stamp[i_];
-    for (const int axis : {1, 2})
-      if (const int step = by[static_cast<std::size_t>(axis)];
-          !lifted_ && std::abs(by[0]) + std::abs(by[1]) + std::abs(by[2]) == std::abs(step)) {
-        Cell at = home_;
-        return state_.lattice.move(stamp, at, axis, step);
-      }
+    if (!lifted_ && std::abs(by[0]) + std::abs(by[1]) + std::abs(by[2]) == 1) {
+      const std::size_t axis = by[0] ? 0 : by[1] ? 1 : 2;
+      Cell at = home_;
+      state_.lattice.move(stamp, at, static_cast<int>(axis), by[axis]);
+      return;
+    }
     if (!lifted_) state_.lattice.flip(stamp, home_);
     state_.lattice.flip(stamp, state_.cell[i_]);
   }
