@@ -14,9 +14,12 @@ namespace packbed {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr std::size_t kBatch = 128;  // points taken into the field at a time
+constexpr std::size_t kBatch = 128;      // points taken into the field at a time
+constexpr std::size_t kRunOfClear = 16;  // listed points that are passed over at a time
 
 typedef double v4d __attribute__((vector_size(32)));
+typedef float v8f __attribute__((vector_size(32)));
+typedef long long v4l __attribute__((vector_size(32)));
 
 PACKBED_WIDE void move_points(const Sight& sight, const double* __restrict x, const double* __restrict y,
                               const double* __restrict z, std::size_t count, double* __restrict to_x,
@@ -113,16 +116,30 @@ void make_room(DeepPoints& deep, std::size_t more) {
     v->resize(2 * (deep.size + more));
 }
 
-/// Least bound of the distances of those outside.
-PACKBED_WIDE double nearest_outside(const Batch& batch, std::size_t count) {
-  v4d nearest = {kForever, kForever, kForever, kForever};
-  for (std::size_t i = 0; i < count; i += 4) {  // the last point stands for those that pad the batch
-    v4d d;
-    std::memcpy(&d, batch.depth + i, sizeof d);
-    const v4d away = d > 0.0 ? v4d{kForever, kForever, kForever, kForever} : -d;
-    nearest = away < nearest ? away : nearest;
+/// A float no greater than x, which is not negative.
+float below(double x) {
+  return static_cast<float>(x * (1 - 1e-6));
+}
+
+/// Picks from the list, from entry `from` on, up to kBatch points that may be inside. Returns how many;
+/// `from` goes on to the first entry that has not been asked.
+PACKBED_WIDE std::size_t pick_due(const NearList& list, float travel, std::size_t& from,
+                                  std::uint32_t* __restrict due) {
+  const float* clear = list.clear.data();
+  const std::size_t size = list.clear.size();
+  std::size_t n = 0;
+  for (; from < size && n + kRunOfClear <= kBatch; from += kRunOfClear) {
+    v8f low, high;
+    std::memcpy(&low, clear + from, sizeof low);
+    std::memcpy(&high, clear + from + 8, sizeof high);
+    const auto is_due = reinterpret_cast<v4l>((low <= travel) | (high <= travel));
+    if (((is_due[0] | is_due[1]) | (is_due[2] | is_due[3])) == 0) continue;
+    for (std::size_t i = from; i < from + kRunOfClear; ++i) {  // without a branch, which would be random
+      due[n] = static_cast<std::uint32_t>(i);
+      n += clear[i] <= travel;
+    }
   }
-  return std::min({nearest[0], nearest[1], nearest[2], nearest[3]});
+  return n;
 }
 
 /// Appends point i of the batch to the last run.
@@ -175,7 +192,8 @@ Sight sight(const FieldPellet& points, const DepthField& field, const Pose& fiel
   return s;
 }
 
-double list_near(const Sight& sight, double margin, std::vector<std::uint16_t>& points) {
+double list_near(const Sight& sight, double margin, NearList& list) {
+  list.drop();
   const SurfacePoints& p = sight.points->points;
   constexpr std::size_t kChunk = DepthField::kChunk;
   alignas(64) double x[kChunk], y[kChunk], z[kChunk], radius[kChunk];
@@ -199,42 +217,53 @@ double list_near(const Sight& sight, double margin, std::vector<std::uint16_t>& 
       }
       Batch batch;
       take_in(sight, {all.data(), size}, batch);
-      for (std::size_t k = 0; k < size; ++k)
-        if (batch.depth[k] >= -reach) points.push_back(all[k]);
+      for (std::size_t k = 0; k < size; ++k) {
+        if (batch.depth[k] < -reach) continue;
+        list.index.push_back(all[k]);
+        list.clear.push_back(below(std::max(0.0, -batch.depth[k] * sight.field_scale)));
+      }
       any = true;
     }
+  }
+  while (list.index.size() % kRunOfClear != 0) {
+    list.index.push_back(0);
+    list.clear.push_back(std::numeric_limits<float>::infinity());
   }
   return (any ? reach : apart) * sight.field_scale;
 }
 
-double find_deep(const Sight& sight, std::span<const std::uint16_t> points, DeepPoints& deep) {
+void find_deep(const Sight& sight, double travel, NearList& list, DeepPoints& deep) {
   deep.clear();
-  double nearest = kForever;
   std::size_t cluster = 0;
   Batch batch;
-  std::array<std::size_t, kBatch> inside;
-  for (std::size_t first = 0; first < points.size(); first += kBatch) {
-    const std::size_t n = std::min(kBatch, points.size() - first);
-    take_in(sight, points.subspan(first, n), batch);
-    nearest = std::min(nearest, nearest_outside(batch, n));
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < n; ++i) {  // without a branch: few are inside, and which is as good as random
-      inside[found] = i;
-      found += batch.depth[i] > 0;
-    }
-    make_room(deep, 4 * found);
-    for (std::size_t k = 0; k < found; ++k) {
-      const std::size_t of = points[first + inside[k]] / kCluster;
+  std::array<std::uint32_t, kBatch> due;
+  std::array<std::uint16_t, kBatch> points;
+  for (std::size_t from = 0; from < list.index.size();) {
+    const std::size_t n = pick_due(list, static_cast<float>(travel), from, due.data());
+    if (n == 0) continue;
+    for (std::size_t i = 0; i < n; ++i) points[i] = list.index[due[i]];
+    take_in(sight, {points.data(), n}, batch);
+    make_room(deep, 4 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double depth = batch.depth[i];
+      list.clear[due[i]] = below(travel + std::max(0.0, -depth * sight.field_scale));
+      if (!(depth > 0)) continue;
+      const std::size_t of = points[i] / kCluster;
       if (deep.runs.empty() || of != cluster) {
         end_run(deep);
         deep.runs.push_back({deep.size, deep.size, deep.size});
         cluster = of;
       }
-      take_over(deep, batch, inside[k]);
+      take_over(deep, batch, i);
     }
   }
   end_run(deep);
-  return nearest * sight.field_scale;
+}
+
+double clear_of_all(const NearList& list) {
+  double least = kForever;
+  for (const float clear : list.clear) least = std::min(least, static_cast<double>(clear));
+  return least;
 }
 
 void add_deep(const Sight& sight, const DeepPoints& deep, std::span<const std::uint8_t> patch,

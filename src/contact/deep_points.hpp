@@ -24,9 +24,16 @@ struct Sight {
 Sight sight(const FieldPellet& points, const DepthField& field, const Pose& field_pose, double field_scale,
             double sign);
 
-/// Appends the points that may be nearer than `margin` [m] to the field's body, leaving out only such as
+/// Points that may come to be deep, filled up with such as never are to whole runs. What it holds changes
+/// what a look costs, never what it finds.
+struct NearList {
+  std::vector<std::uint16_t> index;
+  std::vector<float> clear;  // travel of both bodies, from the listing on, up to which each is outside [m]
+  void drop() { index.clear(), clear.clear(); }
+};
+/// Lists the points that may be nearer than `margin` [m] to the field's body, leaving out only such as
 /// certainly are not. Returns a lower bound of the distance of those left out [m].
-double list_near(const Sight& sight, double margin, std::vector<std::uint16_t>& points);
+double list_near(const Sight& sight, double margin, NearList& list);
 
 /// Points inside of the field's body, in its frame, those of one cluster together in a run. Runs are padded
 /// to a multiple of 4 with points of weight 0.
@@ -44,9 +51,11 @@ struct DeepPoints {
     runs.clear();
   }
 };
-/// Sets `deep` to those of the listed points that are inside. Returns a lower bound of the distance of the
-/// others [m].
-double find_deep(const Sight& sight, std::span<const std::uint16_t> points, DeepPoints& deep);
+/// Sets `deep` to those of the listed points that are inside, now that the bodies have travelled by `travel`
+/// [m] since the listing. Those that cannot be are not asked.
+void find_deep(const Sight& sight, double travel, NearList& list, DeepPoints& deep);
+/// Travel from the listing on up to which all listed points are outside [m].
+double clear_of_all(const NearList& list);
 
 /// Adds deep points to a touch whose origin is at `origin` in the world: the runs whose entry in `patch` is
 /// `which`, or all when `patch` is empty.

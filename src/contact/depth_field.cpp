@@ -13,9 +13,6 @@
 namespace packbed {
 namespace {
 
-constexpr std::int32_t kBlock = 8;           // cells along the side of a block
-constexpr std::int32_t kRow = kBlock + 2;    // coefficients: one more on each side
-constexpr std::int32_t kNodes = kBlock + 4;  // samples: one more again, for the rule that makes coefficients
 constexpr std::int32_t kOutside = -1, kDeep = -2;
 // Coarse spacing in fine ones. The bound loses up to 0.87 coarse spacings: larger culls less, smaller leaves
 // the cache.
@@ -24,31 +21,35 @@ constexpr double kCoarse = 3;
 // What the splines may differ from the distance near an edge, in spacings.
 constexpr double kRounding = 0.3;
 
-typedef double v4d __attribute__((vector_size(32)));
-typedef float v4f __attribute__((vector_size(16)));
-
 struct Grid {
   double x0, y0, z0, per_spacing;
   std::int32_t nx, ny, nz;  // blocks
   const std::int32_t* block;
   const float* coefficient;
-  double plateau;
+  double plateau, steepest;
+  const EdgeBlocks* fine;  // none: nothing is added
 };
 
-inline double sum4(const v4d& v) {
-  return (v[0] + v[1]) + (v[2] + v[3]);
+/// What the fine splines add at (u, v, w), spacings from the corner of the block. Derivatives per coarse
+/// spacing.
+inline __attribute__((always_inline)) SplineValue fine_at(const Grid& grid, std::int32_t block, double u,
+                                                          double v, double w) {
+  const std::int32_t first = grid.fine->first[static_cast<std::size_t>(block)];
+  if (first < 0) return {};
+  const double fu = kFiner * u, fv = kFiner * v, fw = kFiner * w;
+  const std::int32_t iu = static_cast<std::int32_t>(fu), iv = static_cast<std::int32_t>(fv),
+                     iw = static_cast<std::int32_t>(fw);
+  const std::int32_t sub = ((iw / kBlock) * kFiner + iv / kBlock) * kFiner + iu / kBlock;
+  const std::int32_t fine = grid.fine->block[static_cast<std::size_t>(first + sub)];
+  if (fine < 0) return {};
+  const float* row = &grid.fine->coefficient[static_cast<std::size_t>(fine) * kBlockSize +
+                                             cell_of_block(iu % kBlock, iv % kBlock, iw % kBlock)];
+  const SplineValue f = spline_at(row, fu - iu - 0.5, fv - iv - 0.5, fw - iw - 0.5);
+  return {f.value, kFiner * f.x, kFiner * f.y, kFiner * f.z};
 }
 
-/// Weights of the three splines about a node at distance t in [-1/2, 1/2], and their derivatives.
-struct Spline {
-  explicit Spline(double t)
-      : w{0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)},
-        d{t - 0.5, -2 * t, t + 0.5} {}
-  double w[3], d[3];
-};
-
 PACKBED_WIDE void evaluate_grid(const Grid& grid, const DepthBatch& batch) {
-  const double spacing = 1 / grid.per_spacing;
+  const double spacing = 1 / grid.per_spacing, flatter = 1 / grid.steepest;
   for (std::size_t i = 0; i < batch.count; ++i) {
     batch.depth[i] = -spacing;  // what is not in a block, or in one without coefficients, is farther away
     batch.gx[i] = batch.gy[i] = batch.gz[i] = 0;
@@ -62,8 +63,8 @@ PACKBED_WIDE void evaluate_grid(const Grid& grid, const DepthBatch& batch) {
     const std::int32_t block = grid.block[(bw * grid.ny + bv) * grid.nx + bu];
     if (block == kDeep) batch.depth[i] = grid.plateau;
     if (block < 0) continue;
-    const float* row = grid.coefficient + static_cast<std::size_t>(block) * (kRow * kRow * kRow) +
-                       ((iw % kBlock) * kRow + iv % kBlock) * kRow + iu % kBlock;
+    const float* row = grid.coefficient + static_cast<std::size_t>(block) * kBlockSize +
+                       cell_of_block(iu % kBlock, iv % kBlock, iw % kBlock);
     // many points that come here are just outside: the distance at the node, less the way from it, shows it
     const double tu = u - iu, tv = v - iv, tw = w - iw;
     const double outside = -static_cast<double>(row[kRow * kRow + kRow + 1]) * grid.per_spacing - kRounding;
@@ -72,30 +73,17 @@ PACKBED_WIDE void evaluate_grid(const Grid& grid, const DepthBatch& batch) {
       batch.depth[i] = (std::sqrt(away2) - outside) * spacing;
       continue;
     }
-    const Spline sx(tu), sy(tv), sz(tw);
-    v4d value{}, by_y{}, by_z{};
-    for (int c = 0; c < 3; ++c) {
-      v4d plane{}, plane_y{};
-      for (int b = 0; b < 3; ++b) {
-        v4f narrow;
-        std::memcpy(&narrow, row + (c * kRow + b) * kRow, sizeof narrow);
-        const v4d four = __builtin_convertvector(narrow, v4d);
-        plane += sy.w[b] * four;
-        plane_y += sy.d[b] * four;
-      }
-      value += sz.w[c] * plane;
-      by_y += sz.w[c] * plane_y;
-      by_z += sz.d[c] * plane;
+    SplineValue f = spline_at(row, tu, tv, tw);
+    if (grid.fine)
+      f = f + fine_at(grid, block, u + 0.5 - kBlock * bu, v + 0.5 - kBlock * bv, w + 0.5 - kBlock * bw);
+    if (!(f.value > 0)) {
+      batch.depth[i] = std::min(f.value * flatter, f.value + kRounding * spacing);
+      continue;
     }
-    const auto along_x = [](const double* weight, const v4d& by) {
-      return weight[0] * by[0] + weight[1] * by[1] + weight[2] * by[2];
-    };
-    const double depth = along_x(sx.w, value);
-    batch.depth[i] = depth > 0 ? depth : std::min(0.0, depth + kRounding * spacing);
-    if (!(depth > 0)) continue;
-    batch.gx[i] = along_x(sx.d, value) * grid.per_spacing;
-    batch.gy[i] = along_x(sx.w, by_y) * grid.per_spacing;
-    batch.gz[i] = along_x(sx.w, by_z) * grid.per_spacing;
+    batch.depth[i] = f.value;
+    batch.gx[i] = f.x * grid.per_spacing;
+    batch.gy[i] = f.y * grid.per_spacing;
+    batch.gz[i] = f.z * grid.per_spacing;
   }
 }
 
@@ -129,34 +117,19 @@ PACKBED_WIDE void bound_grid(const Coarse& coarse, const SphereBatch& p, double*
   }
 }
 
-/// Samples of the distance over one block, for the splines: coefficient = f - (laplacian of f) / 8.
-void fill_block(const TriangleTree& tree, const Vec3& first_node, double spacing, double deepest,
-                float* out) {
-  std::vector<double> sample(static_cast<std::size_t>(kNodes * kNodes * kNodes));
-  const auto at = [](std::int32_t k, std::int32_t j, std::int32_t i) {
-    return static_cast<std::size_t>((k * kNodes + j) * kNodes + i);
-  };
+/// Coefficients of minus the distance over one block; node after node is near, and so is what is nearest to
+/// it.
+void fill_with_depth(const TriangleTree& tree, const Vec3& first_node, double spacing, double deepest,
+                     float* out) {
   double last = std::numeric_limits<double>::infinity();
   Vec3 last_node = Vec3::Zero();
-  for (std::int32_t k = 0; k < kNodes; ++k)
-    for (std::int32_t j = 0; j < kNodes; ++j)
-      for (std::int32_t i = 0; i < kNodes; ++i) {
-        const Vec3 node = first_node + spacing * Vec3(i - 2, j - 2, k - 2);
-        const double bound =
-            std::isinf(last) ? last : (std::abs(last) + (node - last_node).norm()) * (1 + 1e-9);
-        last = tree.nearest(node, bound).distance;
-        last_node = node;
-        sample[at(k, j, i)] = deepest > 0 ? std::min(-last, deepest) : -last;
-      }
-  for (std::int32_t k = 1; k <= kRow; ++k)
-    for (std::int32_t j = 1; j <= kRow; ++j)
-      for (std::int32_t i = 1; i <= kRow; ++i) {
-        const double f = sample[at(k, j, i)];
-        const double laplacian = sample[at(k, j, i - 1)] + sample[at(k, j, i + 1)] + sample[at(k, j - 1, i)] +
-                                 sample[at(k, j + 1, i)] + sample[at(k - 1, j, i)] + sample[at(k + 1, j, i)] -
-                                 6 * f;
-        *out++ = static_cast<float>(f - 0.125 * laplacian);
-      }
+  fill_block(out, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+    const Vec3 node = first_node + spacing * Vec3(i, j, k);
+    const double bound = std::isinf(last) ? last : (std::abs(last) + (node - last_node).norm()) * (1 + 1e-9);
+    last = tree.nearest(node, bound).distance;
+    last_node = node;
+    return deepest > 0 ? std::min(-last, deepest) : -last;
+  });
 }
 
 double cube(double x) {
@@ -223,7 +196,11 @@ DepthField DepthField::of_mesh(const TriangleMesh& mesh, double spacing, double 
   field.box_centre_ = box.center();
   field.box_half_ = 0.5 * box.sizes() + Vec3::Constant(kRounding * spacing);
   field.make_coarse(tree, box);
-  field.make_blocks(tree, deepest);
+  const std::vector<Vec3> first_node = field.make_blocks(tree, deepest);
+  if (deepest > 0) return field;
+  field.edges_ =
+      make_edge_blocks(mesh, tree, spacing, first_node, [&](const Vec3& x) { return field.splines(x); });
+  field.steepest_ += field.edges_.steepest;
   return field;
 }
 
@@ -249,7 +226,7 @@ void DepthField::make_coarse(const TriangleTree& tree, const Box3& box) {
   });
 }
 
-void DepthField::make_blocks(const TriangleTree& tree, double deepest) {
+std::vector<Vec3> DepthField::make_blocks(const TriangleTree& tree, double deepest) {
   const double half_diagonal = 0.5 * kBlock * std::sqrt(3.0) * spacing_;
   plateau_ = deepest;
   const auto corner_node = [&](std::size_t i) {
@@ -274,19 +251,40 @@ void DepthField::make_blocks(const TriangleTree& tree, double deepest) {
       block_[i] = static_cast<std::int32_t>(used.size());
       used.push_back(i);
     }
-  constexpr std::size_t kSize = static_cast<std::size_t>(kRow * kRow * kRow);
-  coefficient_.assign(used.size() * kSize + 4, 0.0F);  // a row is read four at a time
+  coefficient_.assign(used.size() * kBlockSize + 4, 0.0F);  // a row is read four at a time
+  std::vector<double> steepest(used.size());
+  std::vector<Vec3> first_node(used.size());
   parallel_for(used.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      fill_block(tree, corner_node(used[i]), spacing_, deepest, coefficient_.data() + i * kSize);
+    for (std::size_t i = begin; i < end; ++i) {
+      float* block = coefficient_.data() + i * kBlockSize;
+      first_node[i] = corner_node(used[i]);
+      fill_with_depth(tree, first_node[i], spacing_, deepest, block);
+      steepest[i] = steepest_of(block) / spacing_;
+    }
   });
+  steepest_ = *std::max_element(steepest.begin(), steepest.end()) * (1 + 1e-6);
+  return first_node;
+}
+
+double DepthField::splines(const Vec3& x) const {
+  const Vec3 at = (x - origin_) / spacing_ + Vec3::Constant(0.5);
+  const Eigen::Array3i node = at.array().floor().cast<std::int32_t>(), block = node / kBlock,
+                       cell = node - kBlock * block;
+  const std::int32_t of =
+      block_[static_cast<std::size_t>((block.z() * blocks_[1] + block.y()) * blocks_[0] + block.x())];
+  assert(of >= 0);
+  const Vec3 t = at - node.matrix().cast<double>() - Vec3::Constant(0.5);
+  return spline_at(&coefficient_[static_cast<std::size_t>(of) * kBlockSize +
+                                 cell_of_block(cell.x(), cell.y(), cell.z())],
+                   t.x(), t.y(), t.z())
+      .value;
 }
 
 double DepthField::estimate_bytes(const TriangleMesh& mesh, double spacing, double deepest) {
   const double side = kBlock * spacing, bytes = sizeof(float) * cube(kRow);
   const Vec3 size = bounding_box(mesh).sizes() + Vec3::Constant(4 * spacing);
   const double box = size.prod() / cube(side) * bytes;
-  if (!(deepest > 0)) return box;
+  if (!(deepest > 0)) return box + estimate_edge_bytes(mesh, spacing);
   double area = 0;
   for (const auto& t : mesh.triangles) area += triangle_area_vector(mesh, t).norm();
   // blocks whose centre is within half a diagonal, and a little, of the band
@@ -296,9 +294,10 @@ double DepthField::estimate_bytes(const TriangleMesh& mesh, double spacing, doub
 
 void DepthField::evaluate(const DepthBatch& batch) const {
   if (form_.kind != DepthKind::grid) return evaluate_form(form_, batch);
-  evaluate_grid({origin_.x(), origin_.y(), origin_.z(), 1 / spacing_, blocks_[0], blocks_[1], blocks_[2],
-                 block_.data(), coefficient_.data(), plateau_},
-                batch);
+  evaluate_grid(
+      {origin_.x(), origin_.y(), origin_.z(), 1 / spacing_, blocks_[0], blocks_[1], blocks_[2], block_.data(),
+       coefficient_.data(), plateau_, steepest_, edges_.block.empty() ? nullptr : &edges_},
+      batch);
 }
 
 double DepthField::depth(const Vec3& x, Vec3* gradient) const {
@@ -336,7 +335,9 @@ std::size_t DepthField::near(const double* x, const double* y, const double* z, 
 }
 
 std::size_t DepthField::bytes() const {
-  return block_.size() * sizeof(std::int32_t) + (coefficient_.size() + coarse_.size()) * sizeof(float);
+  return block_.size() * sizeof(std::int32_t) +
+         (coefficient_.size() + coarse_.size() + edges_.coefficient.size()) * sizeof(float) +
+         (edges_.first.size() + edges_.block.size()) * sizeof(std::int32_t);
 }
 
 }  // namespace packbed

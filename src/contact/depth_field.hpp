@@ -4,16 +4,15 @@
 //
 //   spheres, cylinders, tubes, convex polyhedra, plain walls: in closed form (contact/depth_forms.hpp)
 //   mesh: minus the signed distance, sampled on a regular grid and smoothed by quadratic B-splines
-//
-// Quadratic splines over 3x3x3 coefficients are the cheapest C1 field on a grid (tricubic: 64). The
-// coefficients come from the samples by f - (laplacian of f)/8, a local rule that reproduces every quadratic
-// without cubic cross terms: a flat face is exact, a curved one has an error of third order in the spacing,
-// and an edge is rounded over a fraction of a spacing.
+//         (contact/spline_block.hpp): a flat face is exact, a curved one has an error of third order in the
+//         spacing, and an edge is rounded over a fraction of a spacing, four times finer ones near it
+//         (contact/edge_blocks.hpp)
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "contact/depth_forms.hpp"
+#include "contact/edge_blocks.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "shape/shape.hpp"
 
@@ -52,17 +51,21 @@ class DepthField {
  private:
   DepthField() = default;
   void make_coarse(const TriangleTree& tree, const Box3& box);
-  void make_blocks(const TriangleTree& tree, double deepest);
+  /// Returns node 0 of each block.
+  std::vector<Vec3> make_blocks(const TriangleTree& tree, double deepest);
+  /// What the blocks say of a place near the surface, without what edges add [m].
+  double splines(const Vec3& x) const;
 
   DepthForm form_;
-  // blocks of 8^3 cells round nodes, each with the 10^3 coefficients that its splines need
   double spacing_ = 0;
   Vec3 origin_ = Vec3::Zero();            // of node (0, 0, 0)
   std::array<std::int32_t, 3> blocks_{};  // along x, y, z
   std::vector<std::int32_t> block_;       // (bz, by, bx) -> which block, or kOutside, kDeep
   std::vector<float> coefficient_;        // of minus the signed distance [m]
   double plateau_ = 0;                    // depth where kDeep [m]
+  double steepest_ = 1;                   // bound of the slope of the splines [-]
   Vec3 box_centre_ = Vec3::Zero(), box_half_ = Vec3::Zero();  // of the body [m]
+  EdgeBlocks edges_;
   // signed distance at the nodes of a coarse grid, rounded down: bounds for culling (1-Lipschitz)
   double coarse_spacing_ = 0;
   Vec3 coarse_origin_ = Vec3::Zero();

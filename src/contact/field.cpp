@@ -15,12 +15,12 @@ constexpr std::size_t kMostClusters = 4096;  // of one body; more would be a spa
 
 /// Adds the points that a sight sees. Returns the way to go before there are any, 0 when there are.
 double add_side(const Sight& sight, const Vec3& origin, TouchSum<kPointExponent>& sum) {
-  std::vector<std::uint16_t> listed;
+  NearList near;
   DeepPoints deep;
-  const double clear = std::min(list_near(sight, 0, listed), std::numeric_limits<double>::max());
-  const double gap = listed.empty() ? clear : find_deep(sight, listed, deep);
+  const double clear = std::min(list_near(sight, 0, near), std::numeric_limits<double>::max());
+  find_deep(sight, 0, near, deep);
   add_deep(sight, deep, {}, 0, origin, sum);
-  return deep.size > 0 ? 0.0 : std::min(gap, clear);
+  return deep.size > 0 ? 0.0 : std::min(clear_of_all(near), clear);
 }
 
 }  // namespace

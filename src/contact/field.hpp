@@ -22,7 +22,7 @@ struct FieldOptions {
   double grid = 0;     // cells across the same diameter, of a mesh's depth field; 0: kGridAcross
   double memory_bytes = 256e6;  // largest depth field
 };
-inline constexpr double kPointsAcross = 14, kGridAcross = 56;
+inline constexpr double kGridAcross = 56;
 /// A wall has so many fewer cells across it than the body: 8 of 56.
 inline constexpr double kWallShare = 1.0 / 7;
 

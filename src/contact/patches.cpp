@@ -156,8 +156,13 @@ void sum_patches(PatchTouches& out, std::span<Side> sides, const Frame& frame,
   share_out(out);
 }
 
-/// Finds the deep points of all sides among those listed, listing them again when they are due.
-void look(std::span<Side> sides, double size, double cover, double travelled, NearPoints& near,
+bool any_deep(std::span<const Side> sides) {
+  return std::any_of(sides.begin(), sides.end(), [](const Side& s) { return !s.deep.runs.empty(); });
+}
+
+/// Finds the deep points of all sides among those listed, listing them again when they are due. Whether there
+/// are any.
+bool look(std::span<Side> sides, double size, double cover, double travelled, NearPoints& near,
           PatchTouches& out) {
   out.count = 0;
   out.delta = out.depth = out.gap = 0;
@@ -166,35 +171,25 @@ void look(std::span<Side> sides, double size, double cover, double travelled, Ne
     const double margin = std::clamp(change * near.margin, kLeastMargin * size, kMostMargin * size);
     near.margin = margin;
     near.looks = 0;
-    near.index.clear();
-    double clear = list_near(sides[0].sight, margin, near.index);
-    near.of_a = static_cast<std::uint32_t>(near.index.size());
+    near.listed = travelled;
+    double clear = list_near(sides[0].sight, margin, near.of[0]);
     // when a's points are so far from b that no part of its surface between them can be in b, none of b's
     // can be in a
     if (sides.size() == 2) {
       if (clear - cover > margin)
-        clear -= cover;
+        clear -= cover, near.of[1].drop();
       else
-        clear = std::min(clear, list_near(sides[1].sight, margin, near.index));
+        clear = std::min(clear, list_near(sides[1].sight, margin, near.of[1]));
     }
     near.until = travelled + clear;
   }
   ++near.looks;
-  double nearest = near.until - travelled;
-  const std::span<const std::uint16_t> listed(near.index);
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    nearest = std::min(nearest,
-                       find_deep(sides[s].sight, s == 0 ? listed.first(near.of_a) : listed.subspan(near.of_a),
-                                 sides[s].deep));
-  }
-  out.gap = nearest;
-}
-
-bool any_deep(std::span<const Side> sides, PatchTouches& out) {
-  const bool any =
-      std::any_of(sides.begin(), sides.end(), [](const Side& s) { return !s.deep.runs.empty(); });
-  if (any) out.gap = 0;
-  return any;
+  const double travel = travelled - near.listed;
+  for (std::size_t s = 0; s < sides.size(); ++s) find_deep(sides[s].sight, travel, near.of[s], sides[s].deep);
+  if (any_deep(sides)) return true;
+  out.gap = near.until - travelled;
+  for (const NearList& list : near.of) out.gap = std::min(out.gap, clear_of_all(list) - travel);
+  return false;
 }
 
 }  // namespace
@@ -206,8 +201,7 @@ void touch_patches(const FieldPellet& a, const FieldPellet& b, double travelled,
   sides[0].sight = sight(a, of_b.field, b.pose, b.scale, 1);
   sides[1].sight = sight(b, of_a.field, a.pose, a.scale, -1);
   const double size = std::min(of_a.size * a.scale, of_b.size * b.scale);
-  look(sides, size, of_a.points.cover * a.scale, travelled, near, out);
-  if (!any_deep(sides, out)) return;
+  if (!look(sides, size, of_a.points.cover * a.scale, travelled, near, out)) return;
   const Vec3 origin = 0.5 * (a.pose.position + b.pose.position);
   sum_patches(out, sides, {origin, a.pose.position - origin, b.pose.position - origin, 2 * kPi * size, size},
               marks);
@@ -218,8 +212,7 @@ void touch_patches(const FieldPellet& a, const FieldWall& wall, double travelled
   thread_local std::array<Side, 1> sides;
   sides[0].sight = sight(a, wall.field, Pose(), 1, 1);  // the wall stays where it was read
   const double size = a.body->size * a.scale;
-  look(sides, size, 0, travelled, near, out);
-  if (!any_deep(sides, out)) return;
+  if (!look(sides, size, 0, travelled, near, out)) return;
   const Vec3& origin = a.pose.position;
   sum_patches(out, sides, {origin, Vec3::Zero(), -origin, 2 * kPi * size, size}, marks);
 }

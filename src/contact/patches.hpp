@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/field.hpp"
+#include "contact/deep_points.hpp"
 
 namespace packbed {
 
@@ -37,15 +37,14 @@ struct PatchMark {
   Vec3 normal = Vec3::Zero();  // of the force on a, unit
 };
 
-/// The points of a pair that may be deep, kept while the bodies hardly move. What it holds changes what a
-/// look costs, never what it finds.
+/// The points of a pair that may be deep, kept while the bodies hardly move.
 struct NearPoints {
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
-  std::vector<std::uint16_t> index;  // of a's points, then of b's
-  std::uint32_t of_a = 0;
-  std::uint32_t looks = 0;  // that this list has served
-  double until = kNever;    // travel of both bodies at which they are listed again [m]
-  double margin = 0;        // with which they were listed [m]
+  std::array<NearList, 2> of;  // a's points, b's points
+  std::uint32_t looks = 0;     // that these lists have served
+  double listed = 0;           // travel of both bodies when they were made [m]
+  double until = kNever;       // ... at which they are made again [m]
+  double margin = 0;           // with which they were made [m]
 };
 
 struct PatchTouches {

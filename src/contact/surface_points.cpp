@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "mesh/topology.hpp"
@@ -19,16 +20,32 @@ struct Sample {
 constexpr double kGolden = 2.399963229728653;    // angle that spreads points evenly round a spiral [rad]
 constexpr double kHexagon = 0.8660254037844386;  // area a point of a hexagonal lattice of unit spacing
 constexpr double kFine = 1.0 / 3;  // spacing of the dense samples that the points are chosen from
+constexpr double kStep = 0.2;      // between spacings on faces of different curvature, of the logarithm
 constexpr int kRounds = 3;         // of moving the points to the middle of what they stand for (Lloyd)
 
 std::size_t points_on(double area, double spacing) {
   return static_cast<std::size_t>(std::max(1.0, std::round(area / (kHexagon * spacing * spacing))));
 }
 
+/// Spacing of points on faces by how curved these are.
+struct FaceSpacing {
+  double flat;                         // [m]
+  double bulge;                        // [m]
+  double of(double curvature) const {  // k1 + k2 [1/m]
+    const double share = curvature > 0 ? std::sqrt(8 * bulge / curvature) / flat : 1.0;
+    return flat * std::clamp(share, kClosest, 1.0);
+  }
+};
+
+FaceSpacing face_spacing(const Shape& shape, double spacing) {
+  const double relative = spacing * kPointsAcross / shape.equivalent_diameter();
+  return {spacing, kBulge * shape.smallest_thickness * relative * relative};
+}
+
 // --- sphere, cylinder and tube: evenly spread --------------------------------------------------------
 
-std::vector<Sample> sphere_samples(double radius, double spacing) {
-  const double area = 4 * kPi * radius * radius;
+std::vector<Sample> sphere_samples(double radius, const FaceSpacing& faces) {
+  const double area = 4 * kPi * radius * radius, spacing = faces.of(2 / radius);
   const std::size_t n = std::max<std::size_t>(12, points_on(area, spacing));
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < n; ++i) {
@@ -58,8 +75,9 @@ void add_cap(std::vector<Sample>& samples, double radius, double hole, double z,
 /// Rows of a hexagonal pattern, every other one shifted, and both rims. `inner`: of a hole, which is hollow
 /// and has no curvature that would count.
 void add_side(std::vector<Sample>& samples, double radius, double half_height, bool inner, double size,
-              double spacing) {
+              const FaceSpacing& faces) {
   const double round = 2 * kPi * radius, height = 2 * half_height;
+  const double spacing = inner ? faces.flat : faces.of(1 / radius);
   const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(height / (kHexagon * spacing))));
   const auto columns = static_cast<std::size_t>(std::max(6.0, std::round(round / spacing)));
   const double cell = round * height / static_cast<double>(rows * columns);
@@ -72,7 +90,7 @@ void add_side(std::vector<Sample>& samples, double radius, double half_height, b
       const double z = height * ((static_cast<double>(k) + 0.5) / static_cast<double>(rows) - 0.5);
       samples.push_back({radius * out + Vec3(0, 0, z), outward * out, cell * weight});
     }
-  const auto n = static_cast<std::size_t>(std::max(12.0, std::round(round / (kEdgeSpacing * spacing))));
+  const auto n = static_cast<std::size_t>(std::max(12.0, std::round(round / (kEdgeSpacing * faces.flat))));
   for (const double side : {-1.0, 1.0})
     for (std::size_t i = 0; i < n; ++i) {
       const double angle = 2 * kPi * static_cast<double>(i) / static_cast<double>(n);
@@ -84,44 +102,18 @@ void add_side(std::vector<Sample>& samples, double radius, double half_height, b
 }
 
 /// Of a cylinder, or of a tube when inner_radius is not 0.
-std::vector<Sample> tube_samples(const Shape& shape, double size, double spacing) {
+std::vector<Sample> tube_samples(const Shape& shape, double size, const FaceSpacing& faces) {
   std::vector<Sample> samples;
   for (const double side : {1.0, -1.0})
-    add_cap(samples, shape.radius, shape.inner_radius, side * shape.half_height, size, spacing);
-  add_side(samples, shape.radius, shape.half_height, false, size, spacing);
-  if (shape.inner_radius > 0) add_side(samples, shape.inner_radius, shape.half_height, true, size, spacing);
+    add_cap(samples, shape.radius, shape.inner_radius, side * shape.half_height, size, faces.flat);
+  add_side(samples, shape.radius, shape.half_height, false, size, faces);
+  if (shape.inner_radius > 0) add_side(samples, shape.inner_radius, shape.half_height, true, size, faces);
   return samples;
 }
 
 // --- meshes -----------------------------------------------------------------------------------------------
 
-struct Edge {
-  std::int32_t low, high;
-  double angle;  // by which the surface turns, positive when convex
-  std::int32_t left, right;
-};
-
-std::vector<Edge> mesh_edges(const TriangleMesh& mesh, const std::vector<Vec3>& normal) {
-  std::vector<Edge> edges;
-  const std::vector<EdgeUse> uses = edge_uses(mesh);
-  for (std::size_t i = 0; i + 1 < uses.size(); ++i) {
-    const EdgeUse &one = uses[i], &two = uses[i + 1];
-    if (one.low != two.low || one.high != two.high) continue;
-    const EdgeUse& along = one.forward ? one : two;
-    const EdgeUse& against = one.forward ? two : one;
-    const Vec3 direction =
-        mesh.vertices[static_cast<std::size_t>(one.high)] - mesh.vertices[static_cast<std::size_t>(one.low)];
-    const Vec3 &n = normal[static_cast<std::size_t>(along.triangle)],
-               &m = normal[static_cast<std::size_t>(against.triangle)];
-    const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
-    edges.push_back({one.low, one.high, n.cross(m).dot(direction) > 0 ? angle : -angle, along.triangle,
-                     against.triangle});
-    ++i;
-  }
-  return edges;
-}
-
-double length_of(const TriangleMesh& mesh, const Edge& e) {
+double length_of(const TriangleMesh& mesh, const MeshEdge& e) {
   return (mesh.vertices[static_cast<std::size_t>(e.high)] - mesh.vertices[static_cast<std::size_t>(e.low)])
       .norm();
 }
@@ -271,28 +263,37 @@ std::vector<Sample> thinned(std::vector<Sample> dense, double spacing, double* c
 }
 
 std::vector<Sample> face_samples(const TriangleMesh& mesh, const std::vector<Vec3>& normal,
-                                 const std::vector<Edge>& edges, double size, double spacing, double& cover) {
+                                 const std::vector<MeshEdge>& edges, double size, const FaceSpacing& faces,
+                                 double& cover) {
   std::vector<double> curved(mesh.triangles.size(), 0.0);  // (k1 + k2) area of each triangle [m]
-  for (const Edge& e : edges) {
+  for (const MeshEdge& e : edges) {
     if (!(e.angle > 0) || e.angle >= kSharpAngle) continue;
     curved[static_cast<std::size_t>(e.left)] += 0.5 * e.angle * length_of(mesh, e);
     curved[static_cast<std::size_t>(e.right)] += 0.5 * e.angle * length_of(mesh, e);
   }
-  std::vector<Sample> dense;
+  std::map<int, std::vector<Sample>> dense;  // by spacing, in steps down from that on flat faces
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
     const double area = triangle_area_vector(mesh, t).norm();
     if (!(area > 0)) continue;
-    cut_triangle(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2), kFine * spacing, normal[i],
-                 1 / size + kCurved * curved[i] / area, dense);
+    const int step = static_cast<int>(std::ceil(std::log(faces.flat / faces.of(curved[i] / area)) / kStep));
+    cut_triangle(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2),
+                 kFine * faces.flat * std::exp(-kStep * step), normal[i],
+                 1 / size + kCurved * curved[i] / area, dense[step]);
   }
-  return thinned(dense, spacing, &cover);
+  std::vector<Sample> all;
+  for (auto& [step, samples] : dense) {
+    const std::vector<Sample> kept =
+        thinned(std::move(samples), faces.flat * std::exp(-kStep * step), &cover);
+    all.insert(all.end(), kept.begin(), kept.end());
+  }
+  return all;
 }
 
 std::vector<Sample> edge_samples(const TriangleMesh& mesh, const std::vector<Vec3>& normal,
-                                 const std::vector<Edge>& edges, double spacing) {
+                                 const std::vector<MeshEdge>& edges, double spacing) {
   std::vector<Sample> samples;
-  for (const Edge& e : edges) {
+  for (const MeshEdge& e : edges) {
     if (e.angle < kSharpAngle) continue;
     const Vec3 &a = mesh.vertices[static_cast<std::size_t>(e.low)],
                &b = mesh.vertices[static_cast<std::size_t>(e.high)];
@@ -306,7 +307,8 @@ std::vector<Sample> edge_samples(const TriangleMesh& mesh, const std::vector<Vec
   return samples;
 }
 
-std::vector<Sample> corner_samples(const TriangleMesh& mesh, const std::vector<Edge>& edges, double size) {
+std::vector<Sample> corner_samples(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges,
+                                   double size) {
   std::vector<double> missing(mesh.vertices.size(), 2 * kPi);
   for (const auto& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {
@@ -316,7 +318,7 @@ std::vector<Sample> corner_samples(const TriangleMesh& mesh, const std::vector<E
           std::atan2(u.cross(v).norm(), u.dot(v));
     }
   std::vector<int> sharp(mesh.vertices.size(), 0);
-  for (const Edge& e : edges)
+  for (const MeshEdge& e : edges)
     if (e.angle >= kSharpAngle)
       ++sharp[static_cast<std::size_t>(e.low)], ++sharp[static_cast<std::size_t>(e.high)];
   std::vector<Sample> out;
@@ -326,12 +328,13 @@ std::vector<Sample> corner_samples(const TriangleMesh& mesh, const std::vector<E
   return out;
 }
 
-std::vector<Sample> mesh_samples(const TriangleMesh& mesh, double size, double spacing, double& cover) {
+std::vector<Sample> mesh_samples(const TriangleMesh& mesh, double size, const FaceSpacing& faces,
+                                 double& cover) {
   std::vector<Vec3> normal;
   for (const auto& t : mesh.triangles) normal.push_back(triangle_area_vector(mesh, t).normalized());
-  const std::vector<Edge> edges = mesh_edges(mesh, normal);
-  std::vector<Sample> all = face_samples(mesh, normal, edges, size, spacing, cover);
-  for (const Sample& s : edge_samples(mesh, normal, edges, kEdgeSpacing * spacing)) all.push_back(s);
+  const std::vector<MeshEdge> edges = mesh_edges(mesh);
+  std::vector<Sample> all = face_samples(mesh, normal, edges, size, faces, cover);
+  for (const Sample& s : edge_samples(mesh, normal, edges, kEdgeSpacing * faces.flat)) all.push_back(s);
   for (const Sample& s : corner_samples(mesh, edges, size)) all.push_back(s);
   return all;
 }
@@ -388,12 +391,13 @@ double size_radius(const Shape& shape) {
 SurfacePoints sample_surface(const Shape& shape, double spacing) {
   double cover = spacing;  // of evenly spread points, of which the worst is 0.8 spacings
   const double size = size_radius(shape);
+  const FaceSpacing faces = face_spacing(shape, spacing);
   const auto samples = [&] {
-    if (shape.kind == ShapeClass::sphere) return sphere_samples(shape.radius, spacing);
+    if (shape.kind == ShapeClass::sphere) return sphere_samples(shape.radius, faces);
     if (shape.kind == ShapeClass::cylinder || shape.kind == ShapeClass::tube)
-      return tube_samples(shape, size, spacing);
+      return tube_samples(shape, size, faces);
     cover = 0;
-    return mesh_samples(shape.surface, size, spacing, cover);
+    return mesh_samples(shape.surface, size, faces, cover);
   };
   SurfacePoints points = clustered(samples());
   points.cover = cover;

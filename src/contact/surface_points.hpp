@@ -18,12 +18,15 @@ namespace packbed {
 inline constexpr double kCurved = 6;      // a crossing of two sides within a factor 3 of a flat touch
 inline constexpr double kEdge = 2 / kPi;  // a right-angled edge counts with its length
 inline constexpr double kCorner = 0.3;    // a corner of a box counts with half of R
-inline constexpr double kSharpAngle =
-    25 * kPi / 180;  // from here on an edge is one, below it is tessellation
 // Of the spacing on faces. Two edges that cross meet over a length of about their depth, and are not seen
 // before that reaches a third of the spacing of their points: 0.08 % of the diameter of the sphere of equal
 // volume.
 inline constexpr double kEdgeSpacing = 1.0 / 16;
+inline constexpr double kPointsAcross =
+    14;  // points on flat faces: the diameter of that sphere over their spacing
+/// Curved faces have theirs so much closer that no place between two bulges out farther than this, fraction
+/// of the body's smallest thickness, in either direction; but no closer than kClosest spacings.
+inline constexpr double kBulge = 1e-3, kClosest = 1.0 / 3;
 inline constexpr std::size_t kCluster = 16;
 
 /// Points in clusters of kCluster that lie next to each other (the last is filled up with weight 0).
@@ -36,8 +39,9 @@ struct SurfacePoints {
   std::size_t size() const { return x.size(); }
 };
 
-/// `spacing` between neighbouring points on faces [m]; kEdgeSpacing of it on edges. From the exact surface of
-/// spheres and cylinders, else from the triangles. The same for the same shape, always.
+/// `spacing` between neighbouring points on flat faces [m]; kEdgeSpacing of it on edges; less on curved
+/// faces, whose bulges shrink with its square. From the exact surface of spheres and cylinders, else from the
+/// triangles. The same for the same shape, always.
 SurfacePoints sample_surface(const Shape& shape, double spacing);
 
 /// Radius that makes areas lengths: of a sphere or cylinder its own, of a mesh that of the sphere of the same

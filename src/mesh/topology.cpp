@@ -106,6 +106,28 @@ std::vector<EdgeUse> edge_uses(const TriangleMesh& mesh) {
   return uses;
 }
 
+std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh) {
+  const auto normal = [&](std::int32_t t) {
+    return triangle_area_vector(mesh, mesh.triangles[static_cast<std::size_t>(t)]).normalized();
+  };
+  std::vector<MeshEdge> edges;
+  const std::vector<EdgeUse> uses = edge_uses(mesh);
+  for (std::size_t i = 0; i + 1 < uses.size(); ++i) {
+    const EdgeUse &one = uses[i], &two = uses[i + 1];
+    if (one.low != two.low || one.high != two.high) continue;
+    const EdgeUse& along = one.forward ? one : two;
+    const EdgeUse& against = one.forward ? two : one;
+    const Vec3 direction =
+        mesh.vertices[static_cast<std::size_t>(one.high)] - mesh.vertices[static_cast<std::size_t>(one.low)];
+    const Vec3 n = normal(along.triangle), m = normal(against.triangle);
+    const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
+    edges.push_back({one.low, one.high, along.triangle, against.triangle,
+                     n.cross(m).dot(direction) > 0 ? angle : -angle});
+    ++i;
+  }
+  return edges;
+}
+
 Pieces pieces(const TriangleMesh& mesh) {
   Pieces out;
   out.of_triangle.assign(mesh.triangles.size(), -1);

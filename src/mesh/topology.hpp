@@ -28,6 +28,16 @@ struct EdgeUse {
 /// All sides of all triangles, those of the same edge in a row. (3 a triangle)
 std::vector<EdgeUse> edge_uses(const TriangleMesh& mesh);
 
+/// From this angle on an edge is one; below, it is tessellation.
+inline constexpr double kSharpAngle = 25 * kPi / 180;
+struct MeshEdge {
+  std::int32_t low = 0, high = 0;    // vertices, low < high
+  std::int32_t left = 0, right = 0;  // triangles
+  double angle = 0;                  // by which the surface turns, positive when convex [rad]
+};
+/// The edges between two triangles of an outward mesh.
+std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh);
+
 struct Pieces {
   std::vector<std::int32_t> of_triangle;  // which piece, counted in the order of the triangles
   int count = 0;

@@ -124,6 +124,18 @@ TEST(DepthField, GridHasNoJumpsInDepthOrGradient) {  // along lines through many
   }
 }
 
+TEST(DepthField, EdgesAreSharpToASmallPartOfTheSpacing) {
+  const double spacing = 0.1e-3;
+  const DepthField field = DepthField::of_mesh(test::box({1e-3, 1.1e-3, 1.2e-3}), spacing);
+  Random random(5, Stream::test, 0);
+  for (int i = 0; i < 500; ++i) {
+    const double depth = random.uniform(0.05, 0.4) * spacing, along = random.uniform(-0.8e-3, 0.8e-3);
+    const Vec3 edge(1e-3 - depth, 1.1e-3 - depth, along), rim(along, 1.1e-3 - depth, -1.2e-3 + depth);
+    EXPECT_NEAR(field.depth(edge), depth, 0.06 * spacing);
+    EXPECT_NEAR(field.depth(rim), depth, 0.06 * spacing);
+  }
+}
+
 /// Root mean square and largest error of the depth in the outer 5 % of the diameter [m].
 std::pair<double, double> value_error(const TriangleMesh& mesh, double spacing) {
   const DepthField field = DepthField::of_mesh(mesh, spacing);

@@ -226,12 +226,31 @@ TEST(FieldKernel, SphereOnSphereIsTheIntegralOfTheLaw) {
   }
   const double delta = std::pow(2 * sum / (2 * kPi * r), 0.125);
   FieldOptions fine;
-  fine.spacing = 0.04e-3;
+  fine.spacing = 0.05e-3;
   const FieldBody body = make_field_body(*test::sphere(r), fine);
   const Touch t = touch_field({&body, {}}, {&body, {{0, 0, gap}, Quat::Identity()}});
   EXPECT_NEAR(t.delta, delta, 1e-3 * delta);
   EXPECT_NEAR(t.gradient.normalized().z(), -1, 1e-4);
   EXPECT_NEAR(t.point.z(), gap / 2, 0.01 * r);
+}
+
+TEST(FieldKernel, SidesThatCrossAreSeenBetweenTheirPoints) {  // a quarter of a per cent deep
+  Random random(8, Stream::test, 0);
+  const double overlap = 0.0025 * kD, thinnest = 2 * 1.71e-3;
+  for (int i = 0; i < 300; ++i) {
+    const auto turned_about_its_axis = [&](const Quat& lies) {
+      return lies * Quat(Eigen::AngleAxisd(random.uniform(0, 2 * kPi), Vec3::UnitZ()));
+    };
+    const auto along = [&] { return random.uniform(-0.8e-3, 0.8e-3); };
+    const Quat lies = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3::UnitX());
+    const double angle = random.uniform(0.2, kPi / 2);
+    const Quat other = Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())) * lies;
+    const FieldPellet a{&mesh_body(), {along() * Vec3::UnitX(), turned_about_its_axis(lies)}};
+    const FieldPellet b{
+        &mesh_body(),
+        {Vec3(0, 0, thinnest - overlap) + along() * (other * Vec3::UnitZ()), turned_about_its_axis(other)}};
+    EXPECT_GT(touch_field(a, b).depth, 0) << i;
+  }
 }
 
 TEST(FieldKernel, StiffnessIsEvenOverFacesEdgesAndCorners) {
