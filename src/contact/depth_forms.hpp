@@ -22,7 +22,7 @@ namespace packbed {
 /// multiple of 4 with any finite numbers.
 struct DepthBatch {
   const double *x, *y, *z;  // [m]
-  double* depth;            // [m]; outside: minus a lower bound of the distance, or 0
+  double* depth;            // [m]; outside: minus a lower bound of the way to where it is not 0, or 0
   double *gx, *gy, *gz;     // gradient of the depth [-]; not set outside
   std::size_t count = 0;
 };

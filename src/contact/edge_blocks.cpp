@@ -1,5 +1,9 @@
 #include "contact/edge_blocks.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "math/threads.hpp"
 #include "mesh/topology.hpp"
 
@@ -56,42 +60,76 @@ struct FineBlocks {
   std::vector<float> coefficient;
 };
 
-}  // namespace
+/// Half the diagonal of a block whose cells are so wide.
+double half_diagonal(double spacing) {
+  return 0.5 * std::sqrt(3.0) * kBlock * spacing;
+}
 
-EdgeBlocks make_edge_blocks(const TriangleMesh& mesh, const TriangleTree& tree, double spacing,
-                            const std::vector<Vec3>& first_node,
-                            const std::function<double(const Vec3&)>& splines) {
-  const std::vector<Segment> edges = sharp_edges(mesh);
-  const double fine = spacing / kFiner;
-  const double reach = kGone * spacing + 2 * fine, half = 0.5 * std::sqrt(3.0);  // of a cube's diagonal
-  const auto nothing = static_cast<float>(kNothing * spacing);
-  const auto fill = [&](const Vec3& node, FineBlocks& out) {
-    const std::vector<Segment> near =
-        within(edges, node + Vec3::Constant(0.5 * (kBlock - 1) * spacing), reach + half * kBlock * spacing);
+class Filler {
+ public:
+  Filler(const TriangleMesh& mesh, const TriangleTree& tree, double spacing,
+         const std::function<double(const Vec3&)>& splines)
+      : edges_(sharp_edges(mesh)),
+        tree_(tree),
+        splines_(splines),
+        spacing_(spacing),
+        fine_(spacing / kFiner),
+        reach_(kGone * spacing + 2 * fine_) {}
+
+  FineBlocks fill(const Vec3& node) const {
+    FineBlocks out;
+    const std::vector<Segment> near = within(edges_, node + Vec3::Constant(0.5 * (kBlock - 1) * spacing_),
+                                             reach_ + half_diagonal(spacing_));
     for (std::int32_t sub = 0; sub < kFineOf && !near.empty(); ++sub) {
       const Vec3 index(sub % kFiner, sub / kFiner % kFiner, sub / (kFiner * kFiner));
-      const Vec3 corner = node - Vec3::Constant(0.5 * spacing) + kBlock * fine * index;
-      const std::vector<Segment> nearer =
-          within(near, corner + Vec3::Constant(0.5 * kBlock * fine), reach + half * kBlock * fine);
-      if (nearer.empty()) continue;
-      std::vector<float> block(kBlockSize);
-      fill_block(block.data(), [&](std::int32_t i, std::int32_t j, std::int32_t k) {
-        const Vec3 x = corner + fine * Vec3(i + 0.5, j + 0.5, k + 0.5);
-        const double away = distance(nearer, x), weight = fade(away / spacing);
-        if (!(weight > 0)) return 0.0;
-        return weight * (-tree.nearest(x, away * (1 + 1e-9) + 1e-9 * spacing).distance - splines(x));
-      });
-      for (float& c : block) c = std::copysign(std::max(0.0F, std::abs(c) - nothing), c);
+      const Vec3 corner = node - Vec3::Constant(0.5 * spacing_) + kBlock * fine_ * index;
+      const std::vector<float> block = coefficients(corner, near);
       if (std::all_of(block.begin(), block.end(), [](float c) { return !(std::abs(c) > 0); })) continue;
       if (out.block.empty()) out.block.assign(kFineOf, -1);
       out.block[static_cast<std::size_t>(sub)] =
           static_cast<std::int32_t>(out.coefficient.size() / kBlockSize);
       out.coefficient.insert(out.coefficient.end(), block.begin(), block.end());
     }
-  };
+    return out;
+  }
+
+ private:
+  /// Of the fine block at `corner`; none when no edge is near.
+  std::vector<float> coefficients(const Vec3& corner, const std::vector<Segment>& edges) const {
+    const std::vector<Segment> near =
+        within(edges, corner + Vec3::Constant(0.5 * kBlock * fine_), reach_ + half_diagonal(fine_));
+    if (near.empty()) return {};
+    std::vector<float> block(kBlockSize);
+    fill_block(block.data(), [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+      return missing(corner + fine_ * Vec3(i + 0.5, j + 0.5, k + 0.5), near);
+    });
+    const auto nothing = static_cast<float>(kNothing * spacing_);
+    for (float& c : block) c = std::copysign(std::max(0.0F, std::abs(c) - nothing), c);
+    return block;
+  }
+  /// What the splines of the grid lack at x [m].
+  double missing(const Vec3& x, const std::vector<Segment>& edges) const {
+    const double away = distance(edges, x), weight = fade(away / spacing_);
+    if (!(weight > 0)) return 0;
+    return weight * (-tree_.nearest(x, away * (1 + 1e-9) + 1e-9 * spacing_).distance - splines_(x));
+  }
+
+  std::vector<Segment> edges_;
+  const TriangleTree& tree_;
+  const std::function<double(const Vec3&)>& splines_;
+  double spacing_, fine_;
+  double reach_;  // of an edge, and of the rule that makes coefficients
+};
+
+}  // namespace
+
+EdgeBlocks make_edge_blocks(const TriangleMesh& mesh, const TriangleTree& tree, double spacing,
+                            const std::vector<Vec3>& first_node,
+                            const std::function<double(const Vec3&)>& splines) {
+  const Filler filler(mesh, tree, spacing, splines);
   std::vector<FineBlocks> found(first_node.size());
   parallel_for(found.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) fill(first_node[i], found[i]);
+    for (std::size_t i = begin; i < end; ++i) found[i] = filler.fill(first_node[i]);
   });
 
   EdgeBlocks out;
@@ -104,7 +142,7 @@ EdgeBlocks make_edge_blocks(const TriangleMesh& mesh, const TriangleTree& tree, 
     out.coefficient.insert(out.coefficient.end(), found[i].coefficient.begin(), found[i].coefficient.end());
   }
   for (std::size_t at = 0; at < out.coefficient.size(); at += kBlockSize)
-    out.steepest = std::max(out.steepest, steepest_of(&out.coefficient[at]) / fine);
+    out.steepest = std::max(out.steepest, steepest_of(&out.coefficient[at]) / (spacing / kFiner));
   out.coefficient.resize(out.coefficient.size() + 4, 0.0F);  // a row is read four at a time
   return out;
 }

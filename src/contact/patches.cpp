@@ -176,10 +176,12 @@ bool look(std::span<Side> sides, double size, double cover, double travelled, Ne
     // when a's points are so far from b that no part of its surface between them can be in b, none of b's
     // can be in a
     if (sides.size() == 2) {
-      if (clear - cover > margin)
-        clear -= cover, near.of[1].drop();
-      else
+      if (clear - cover > margin) {
+        clear -= cover;
+        near.of[1].drop();
+      } else {
         clear = std::min(clear, list_near(sides[1].sight, margin, near.of[1]));
+      }
     }
     near.until = travelled + clear;
   }

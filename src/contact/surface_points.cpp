@@ -113,11 +113,6 @@ std::vector<Sample> tube_samples(const Shape& shape, double size, const FaceSpac
 
 // --- meshes -----------------------------------------------------------------------------------------------
 
-double length_of(const TriangleMesh& mesh, const MeshEdge& e) {
-  return (mesh.vertices[static_cast<std::size_t>(e.high)] - mesh.vertices[static_cast<std::size_t>(e.low)])
-      .norm();
-}
-
 /// Cut at the longest side until none is longer than `longest`.
 void cut_triangle(const Vec3& a, const Vec3& b, const Vec3& c, double longest, const Vec3& normal,
                   double density, std::vector<Sample>& out) {
@@ -268,23 +263,22 @@ std::vector<Sample> face_samples(const TriangleMesh& mesh, const std::vector<Vec
   std::vector<double> curved(mesh.triangles.size(), 0.0);  // (k1 + k2) area of each triangle [m]
   for (const MeshEdge& e : edges) {
     if (!(e.angle > 0) || e.angle >= kSharpAngle) continue;
-    curved[static_cast<std::size_t>(e.left)] += 0.5 * e.angle * length_of(mesh, e);
-    curved[static_cast<std::size_t>(e.right)] += 0.5 * e.angle * length_of(mesh, e);
+    curved[static_cast<std::size_t>(e.left)] += 0.5 * e.angle * edge_vector(mesh, e).norm();
+    curved[static_cast<std::size_t>(e.right)] += 0.5 * e.angle * edge_vector(mesh, e).norm();
   }
+  const auto spacing_of = [&](int step) { return faces.flat * std::exp(-kStep * step); };
   std::map<int, std::vector<Sample>> dense;  // by spacing, in steps down from that on flat faces
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
     const double area = triangle_area_vector(mesh, t).norm();
     if (!(area > 0)) continue;
     const int step = static_cast<int>(std::ceil(std::log(faces.flat / faces.of(curved[i] / area)) / kStep));
-    cut_triangle(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2),
-                 kFine * faces.flat * std::exp(-kStep * step), normal[i],
-                 1 / size + kCurved * curved[i] / area, dense[step]);
+    cut_triangle(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2), kFine * spacing_of(step),
+                 normal[i], 1 / size + kCurved * curved[i] / area, dense[step]);
   }
   std::vector<Sample> all;
   for (auto& [step, samples] : dense) {
-    const std::vector<Sample> kept =
-        thinned(std::move(samples), faces.flat * std::exp(-kStep * step), &cover);
+    const std::vector<Sample> kept = thinned(std::move(samples), spacing_of(step), &cover);
     all.insert(all.end(), kept.begin(), kept.end());
   }
   return all;

@@ -22,8 +22,8 @@ inline constexpr double kCorner = 0.3;    // a corner of a box counts with half 
 // before that reaches a third of the spacing of their points: 0.08 % of the diameter of the sphere of equal
 // volume.
 inline constexpr double kEdgeSpacing = 1.0 / 16;
-inline constexpr double kPointsAcross =
-    14;  // points on flat faces: the diameter of that sphere over their spacing
+/// The diameter of that sphere over the spacing of the points on flat faces.
+inline constexpr double kPointsAcross = 14;
 /// Curved faces have theirs so much closer that no place between two bulges out farther than this, fraction
 /// of the body's smallest thickness, in either direction; but no closer than kClosest spacings.
 inline constexpr double kBulge = 1e-3, kClosest = 1.0 / 3;

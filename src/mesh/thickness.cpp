@@ -41,15 +41,9 @@ Vec3 spread(const TriangleMesh& mesh, const Triangle& t, std::size_t k) {
 
 std::vector<Vec3> sharp_edges(const TriangleMesh& mesh) {
   std::vector<Vec3> found;
-  const std::vector<EdgeUse> uses = edge_uses(mesh);
-  for (std::size_t i = 0; i + 1 < uses.size(); i += 2) {
-    const auto normal = [&](const EdgeUse& e) -> Vec3 {
-      return triangle_area_vector(mesh, mesh.triangles[static_cast<std::size_t>(e.triangle)]).normalized();
-    };
-    if (normal(uses[i]).dot(normal(uses[i + 1])) > 0.98) continue;
-    found.push_back((mesh.vertices[static_cast<std::size_t>(uses[i].high)] -
-                     mesh.vertices[static_cast<std::size_t>(uses[i].low)])
-                        .normalized());
+  for (const MeshEdge& e : mesh_edges(mesh)) {
+    if (std::cos(e.angle) > 0.98) continue;
+    found.push_back(edge_vector(mesh, e).normalized());
     if (found.size() > kSharpEdges) return {};
   }
   return found;

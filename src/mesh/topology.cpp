@@ -115,14 +115,11 @@ std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh) {
   for (std::size_t i = 0; i + 1 < uses.size(); ++i) {
     const EdgeUse &one = uses[i], &two = uses[i + 1];
     if (one.low != two.low || one.high != two.high) continue;
-    const EdgeUse& along = one.forward ? one : two;
-    const EdgeUse& against = one.forward ? two : one;
-    const Vec3 direction =
-        mesh.vertices[static_cast<std::size_t>(one.high)] - mesh.vertices[static_cast<std::size_t>(one.low)];
-    const Vec3 n = normal(along.triangle), m = normal(against.triangle);
+    const std::int32_t left = (one.forward ? one : two).triangle, right = (one.forward ? two : one).triangle;
+    const Vec3 n = normal(left), m = normal(right);
     const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
-    edges.push_back({one.low, one.high, along.triangle, against.triangle,
-                     n.cross(m).dot(direction) > 0 ? angle : -angle});
+    edges.push_back(
+        {one.low, one.high, left, right, n.cross(m).dot(edge_vector(mesh, one)) > 0 ? angle : -angle});
     ++i;
   }
   return edges;

@@ -37,6 +37,11 @@ struct MeshEdge {
 };
 /// The edges between two triangles of an outward mesh.
 std::vector<MeshEdge> mesh_edges(const TriangleMesh& mesh);
+/// From its lower vertex to its higher one [m].
+template <class Edge>
+Vec3 edge_vector(const TriangleMesh& mesh, const Edge& e) {
+  return mesh.vertices[static_cast<std::size_t>(e.high)] - mesh.vertices[static_cast<std::size_t>(e.low)];
+}
 
 struct Pieces {
   std::vector<std::int32_t> of_triangle;  // which piece, counted in the order of the triangles
