@@ -15,7 +15,7 @@ constexpr std::int64_t kNarrow = std::int64_t{1} << 19;
 /// Smallest whole number >= num / den for den > 0, exact; inverse is 1 / den, rounded.
 template <class Int>
 Int ceil_div(Int num, Int den, double inverse) {
-  Int q = static_cast<Int>(std::ceil(static_cast<double>(num) * inverse));
+  Int q = static_cast<Int>(static_cast<double>(num) * inverse) + 1;
   Int rest = q * den - num;  // wanted in [0, den)
   while (rest < 0) {
     ++q;
@@ -206,6 +206,23 @@ void Rasteriser::close_rows() {
   }
 }
 
+// Small triangles often lie between two rows, or two slices; they are left out without a branch for each.
+void Rasteriser::find_crossing(const TriangleMesh& surface) {
+  crossing_.resize(surface.triangles.size());
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < surface.triangles.size(); ++k) {
+    const auto& t = surface.triangles[k];
+    const Corner &a = corners_[static_cast<std::size_t>(t[0])], &b = corners_[static_cast<std::size_t>(t[1])],
+                 &c = corners_[static_cast<std::size_t>(t[2])];
+    const auto spans = [](std::int64_t u, std::int64_t v, std::int64_t w) {
+      return ceil_snap(std::min(u, std::min(v, w))) < ceil_snap(std::max(u, std::max(v, w)));
+    };
+    crossing_[n] = static_cast<std::uint32_t>(k);
+    n += static_cast<std::size_t>(spans(a.y, b.y, c.y)) & static_cast<std::size_t>(spans(a.z, b.z, c.z));
+  }
+  crossing_.resize(n);
+}
+
 const BitBlock& Rasteriser::mesh(const TriangleMesh& surface, const Pose& pose, double scale, int z_begin,
                                  int z_end) {
   const Mat3 rotation = pose.rotation.toRotationMatrix() * (scale / frame_.pitch);
@@ -235,7 +252,9 @@ const BitBlock& Rasteriser::mesh(const TriangleMesh& surface, const Pose& pose, 
   }
   const bool narrow =
       ((high - base).maxCoeff() + 1) * static_cast<double>(kSnap) < static_cast<double>(kNarrow);
-  for (const auto& t : surface.triangles) {
+  find_crossing(surface);
+  for (const std::uint32_t k : crossing_) {
+    const auto& t = surface.triangles[k];
     const Corner &a = corners_[static_cast<std::size_t>(t[0])], &b = corners_[static_cast<std::size_t>(t[1])],
                  &c = corners_[static_cast<std::size_t>(t[2])];
     if (narrow)

@@ -59,6 +59,7 @@ class Rasteriser {
   bool set_box(const Vec3& low, const Vec3& high, int z_begin, int z_end);
   void sphere(const Vec3& centre, double radius);
   void cylinder(const Vec3& centre, const Vec3& axis, double radius, double bore, double half_height);
+  void find_crossing(const TriangleMesh& surface);
   template <class Int>
   void triangle(const Corner& a, const Corner& b, const Corner& c);
   void close_rows();
@@ -66,8 +67,9 @@ class Rasteriser {
   GridFrame frame_;
   BitBlock block_;
   RowIntervals intervals_;
-  std::vector<Vec3> posed_;      // vertices in voxels, voxel centres at whole numbers
-  std::vector<Corner> corners_;  // the same, snapped, counted from corner_base_
+  std::vector<Vec3> posed_;              // vertices in voxels, voxel centres at whole numbers
+  std::vector<Corner> corners_;          // the same, snapped, counted from corner_base_
+  std::vector<std::uint32_t> crossing_;  // triangles that cross rows
   std::array<std::int64_t, 3> corner_base_{0, 0, 0};
   std::int64_t rows_ = 0, open_rows_ = 0;
 };

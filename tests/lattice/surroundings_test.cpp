@@ -1,4 +1,5 @@
-// The copy of the lattice round a pellet, and the probes that look into it, against cells one by one.
+// The copy of the lattice round a pellet, the probes that look into it and the core that tells their inside,
+// against cells one by one.
 #include "lattice/surroundings.hpp"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include "../shapes.hpp"
 #include "lattice/probes.hpp"
 #include "math/random.hpp"
+#include "mesh/inside.hpp"
 
 namespace packbed {
 namespace {
@@ -101,10 +103,37 @@ TEST(Surroundings, AreTheLatticeWithoutThePellet) {
   EXPECT_GT(beyond, 5);
 }
 
+/// A ring whose inside no formula tells.
+ShapePtr faceted_ring() {
+  const ShapePtr ring = make_ring("ring", 4e-3, 3e-3, 2e-3);
+  return make_shape("faceted ring", "", ring->surface, false);
+}
+
+TEST(Core, LiesWhollyInside) {
+  const ShapePtr shape = faceted_ring();
+  const double pitch = 5e-5;
+  const Core core(shape->surface, shape->bounding_radius, pitch);
+  const MeshQuery query(shape->surface);
+  Random random(5, Stream::test, 0);
+  int held = 0, solid = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 place = shape->bounding_radius * random.uniform(0.0, 1.0) * random.on_sphere();
+    const Vec3 cells = place / pitch;
+    const bool in = query.inside(place);
+    solid += in;
+    if (!core.holds(cells.x(), cells.y(), cells.z())) continue;
+    ++held;
+    EXPECT_TRUE(in) << place.transpose();
+  }
+  // of a wall of ten cells, some eight
+  EXPECT_GT(held, 0.7 * solid);
+  EXPECT_LT(held, 0.9 * solid);
+}
+
 TEST(Probes, AreCellsOfThePellet) {
   StampMaker maker(kPitch, 4e-3);
   for (const ShapePtr& shape :
-       {ShapePtr(test::cylinder(2.7e-3, 1.8e-3)), make_ring("ring", 4e-3, 3e-3, 2e-3)}) {
+       {ShapePtr(test::cylinder(2.7e-3, 1.8e-3)), make_ring("ring", 4e-3, 3e-3, 2e-3), faceted_ring()}) {
     const Probes probes(*shape, kPitch);
     for (std::uint32_t i = 0; i < 300; ++i) {
       Random random(9, Stream::test, i);
@@ -137,7 +166,7 @@ TEST(Probes, AreCellsOfThePellet) {
   }
 }
 
-TEST(Probes, ThereAreNoneOfOtherShapes) {
+TEST(Probes, ThereAreNoneOfSpheres) {
   const Probes probes(*test::sphere(3e-3), kPitch);
   std::uint8_t first = 0;
   EXPECT_FALSE(probes.meet(1, Quat::Identity(), Vec3::Zero(), first, [](const Cell&) { return true; }));

@@ -48,14 +48,15 @@ struct Touch {
   std::uint32_t seen_a = 0, seen_b = 0;  // versions of the stamps that were counted; 0: none
   std::uint32_t meets = 0;               // they share cells
   std::uint32_t known = 0;               // there is a depth of the last step
-  std::uint32_t age = 0;                 // steps that it has touched without a break
   double depth = 0;                      // [m]; <= 0: apart
   // what the shared cells tell, with a moved towards b by `lead` cells, so that a touch is seen before it
   // begins; counted anew when either stamp has changed
   Patch patch;
   Cell lead{0, 0, 0};
-  // added to the depth that the cells tell, so that it does not jump when they are counted anew; fades away
+  // added to the depth and the point that the cells tell, so that they do not jump when these are counted
+  // anew; both fade as the bodies move, and the normal follows likewise
   double bias = 0;             // [m]
+  Vec3 aside = Vec3::Zero();   // [m]
   double last = 0;             // depth of the last step, negative when apart [m]
   Vec3 spring = Vec3::Zero();  // tangential [m]
   Vec3 normal = Vec3::Zero();  // on a, of the last touch; zero: none yet

@@ -14,7 +14,7 @@
 namespace packbed::lattice {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'44000005;  // changes with any change of DemState
+constexpr std::uint64_t kFormat = 0x706b6264'44000006;  // changes with any change of DemState
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>

@@ -9,13 +9,11 @@
 namespace packbed::lattice {
 namespace {
 
-/// Steps over which the bias fades: what recounting has changed comes in over some 25 contact times, so
-/// slowly that the dashpots take all of its energy. At once, half a voxel of depth is a kick of some 0.1 m/s
-/// and no bed cools; over five contact times the pellets of the surface still dance, and shake the bed denser
-/// than it should be (0.54 against 0.50 for 100 cylinders of 14 x 14 x 9 cells; the mesh packer has 0.505). A
-/// touch that has lasted longer takes as long as it has lasted: beads with walls of five cells dance for ever
-/// otherwise, for between many touches a count changes all the time.
-constexpr double kFade = 500;
+/// Cells that two bodies slide, part or roll while what a new count has changed comes in by all but a third.
+/// It must not come in by itself, with time: that pushes resting bodies apart again and again, and no bed of
+/// thin walls cools. Nor over two cells of way: what is then pushed out of its neighbour is pushed the harder
+/// for it.
+constexpr double kFade = 8;
 
 /// Where the normal on a is looked for before cells tell: from b's centre, or from the wall.
 Vec3 first_guess(const DemState& state, const Touch& t) {
@@ -68,38 +66,6 @@ struct Place {
   double area = 0;    // [m2]
 };
 
-/// Depth, normal and point; false when apart.
-bool find_place(const DemModel& model, const DemState& state, bool counted, Touch& t, Place& place) {
-  t.depth = 0;
-  if (!t.meets) {
-    t.known = t.age = 0;
-    return false;
-  }
-  const double pitch = model.base.frame.pitch;
-  const Patch& patch = t.patch;
-  t.normal = patch.normal;
-  const Vec3 lead(t.lead[0], t.lead[1], t.lead[2]);
-  const Bodies& b = state.bodies;
-  const Cell& c = state.cell[t.a];
-  t.point =
-      model.base.frame.centre(c[0], c[1], c[2]) + pitch * (patch.point + 0.5 * lead) + state.offset[t.a];
-  place.arm_a = t.point - b.position[t.a];
-  place.area = std::max(patch.area, 1.0) * pitch * pitch;
-  Vec3 way = way_since(state, t.a, place.arm_a);
-  if (!is_wall(t.b)) {
-    place.arm_b = t.point - b.position[t.b];
-    way -= way_since(state, t.b, place.arm_b);
-  }
-  const double told = pitch * (patch.depth + lead.dot(t.normal)) - way.dot(t.normal);
-  t.bias = counted ? (t.known ? t.last : std::min(0.0, told)) - told
-                   : t.bias - t.bias / std::max<double>(kFade, t.age);
-  t.known = 1;
-  t.last = told + t.bias;
-  t.depth = std::max(0.0, t.last);
-  t.age = t.depth > 0 ? t.age + 1 : 0;
-  return t.depth > 0;
-}
-
 struct Moving {
   Vec3 velocity, spin;  // of a against b at the point
   double mass;          // effective [kg]
@@ -116,6 +82,61 @@ Moving relative(const DemState& state, const Touch& t, const Place& place) {
   }
   m.mass = 1 / inverse;
   return m;
+}
+
+/// What the cells tell: the point of the touch [m], and the depth there now [m], negative when apart.
+struct Told {
+  Vec3 point;
+  double depth = 0;
+};
+
+Told told_by_cells(const DemModel& model, const DemState& state, const Touch& t) {
+  const double pitch = model.base.frame.pitch;
+  const Cell& c = state.cell[t.a];
+  const Vec3 lead(t.lead[0], t.lead[1], t.lead[2]);
+  Told told;
+  told.point =
+      model.base.frame.centre(c[0], c[1], c[2]) + pitch * (t.patch.point + 0.5 * lead) + state.offset[t.a];
+  const std::vector<Vec3>& x = state.bodies.position;
+  Vec3 way = way_since(state, t.a, told.point - x[t.a]);
+  if (!is_wall(t.b)) way -= way_since(state, t.b, told.point - x[t.b]);
+  told.depth = pitch * (t.patch.depth + lead.dot(t.patch.normal)) - way.dot(t.patch.normal);
+  return told;
+}
+
+/// Depth, normal and point; false when apart.
+bool find_place(const DemModel& model, const DemState& state, bool counted, Touch& t, Place& place) {
+  t.depth = 0;
+  if (!t.meets) {
+    t.known = 0;
+    return false;
+  }
+  const double pitch = model.base.frame.pitch;
+  const Told told = told_by_cells(model, state, t);
+  if (!t.known) {
+    t.normal = t.patch.normal;
+    t.aside.setZero();
+    t.bias = std::min(0.0, told.depth) - told.depth;
+  } else if (counted) {  // as it was before
+    t.aside = t.point - told.point;
+    t.bias = t.last - told.depth;
+  }
+  t.point = told.point + t.aside;
+  place.arm_a = t.point - state.bodies.position[t.a];
+  if (!is_wall(t.b)) place.arm_b = t.point - state.bodies.position[t.b];
+  place.area = std::max(t.patch.area, 1.0) * pitch * pitch;
+  t.last = told.depth + t.bias;
+  t.depth = std::max(0.0, t.last);
+  t.known = 1;
+
+  const Moving m = relative(state, t, place);
+  const double passed = model.step * (m.velocity.norm() + m.spin.norm() * state.bodies.bounding_radius[t.a]);
+  const double share = std::min(1.0, passed / (kFade * pitch));
+  const Vec3 normal = t.normal + share * (t.patch.normal - t.normal);
+  t.normal = normal.norm() > 0 ? Vec3(normal.normalized()) : t.patch.normal;
+  t.aside -= share * t.aside;
+  t.bias -= share * std::clamp(t.bias, -pitch, pitch);
+  return t.depth > 0;
 }
 
 /// Force and couple on a. The spring and the dashpot are spread over the patch, which resists rocking as it
