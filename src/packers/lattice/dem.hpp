@@ -17,6 +17,7 @@
 #include "lattice/shared_cells.hpp"
 #include "packers/feed.hpp"
 #include "packers/lattice/model.hpp"
+#include "packers/rest_watch.hpp"
 #include "packers/shaking.hpp"
 
 namespace packbed::lattice {
@@ -32,6 +33,7 @@ struct DemModel {
   double step = 0;           // [s]
   double skin = 0;           // of the neighbour list [m]
   std::int64_t watch = 1;    // steps over which a pellet must stay to fall asleep
+  double expected_time = 0;  // of the whole run, for the progress line [s]
   Vec3 gravity = Vec3::Zero();
 };
 
@@ -85,13 +87,11 @@ struct DemState {
   std::vector<std::uint32_t> active, awake, shore;
   std::vector<Vec3> resting_force, resting_torque;
   std::uint8_t stale = 1;
-  std::uint8_t last_watch = 0;  // the bed seems to be at rest: all are awake and watched once more
   std::vector<Vec3> listed_at;  // position at the last search [m]
-  std::uint8_t search_due = 1, at_rest = 0, waited = 0;
+  std::uint8_t search_due = 1, waited = 0;
   double time = 0;
   std::int64_t steps = 0, snapshots = 0, searches = 0, sleeps = 0, wakes = 0;
-  double rest_since = -1, rest_speed = 0, rest_drift = 0;
-  std::vector<Vec3> rest_anchor;
+  RestWatch rest;  // last_watch: the bed seems to be at rest, all are awake and watched once more
   ShakeState shake;
   double peak = 0;  // deepest touch of the run [m]
   double wall_s = 0, cpu_s = 0;

@@ -35,6 +35,7 @@ DemModel make_dem_model(const Scene& scene) {
       kPi * std::sqrt(lightest / std::max(2 * model.pellet.stiffness, model.wall.stiffness));
   model.step = step_for(scene, contact, "leave the step out, or lower contact.stiffness");
   model.watch = std::max<std::int64_t>(1, std::llround(kWatchContacts * contact / model.step));
+  model.expected_time = expected_time(scene);
   model.skin = scene.stepping.skin > 0 ? scene.stepping.skin : 0.2 * model.base.largest;
   return model;
 }

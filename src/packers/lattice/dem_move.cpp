@@ -56,38 +56,37 @@ double kinetic_speed(const DemState& state) {
 
 void dem_rest(const DemModel& model, DemState& state, const Feeder& feeder) {
   const Stepping& s = model.base.scene->stepping;
+  RestWatch& rest = state.rest;
   if (!feeder.done() || vibrates(state.shake, state.time)) {
-    state.rest_since = -1;
+    rest.anchor.clear();  // no window
     return;
   }
-  if (state.rest_since >= 0 && state.time - state.rest_since < s.rest_window) return;
+  if (!rest.anchor.empty() && state.time - rest.since < s.rest_window) return;
   const std::vector<Vec3>& x = state.bodies.position;
-  if (state.rest_since >= 0) {
+  if (!rest.anchor.empty()) {
     double drift = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) drift = std::max(drift, (x[i] - state.rest_anchor[i]).norm());
-    state.rest_drift = drift / (2 * model.base.largest);
-    state.rest_speed = kinetic_speed(state);
-    state.at_rest = state.rest_drift <= s.rest_drift && state.rest_speed <= s.rest_speed;
-    if (state.at_rest && s.sleep && !state.last_watch) {  // once more, with all of them awake
+    for (std::size_t i = 0; i < x.size(); ++i) drift = std::max(drift, (x[i] - rest.anchor[i]).norm());
+    rest.drift = drift / (2 * model.base.largest);
+    rest.speed = kinetic_speed(state);
+    rest.at_rest = rest.drift <= s.rest_drift && rest.speed <= s.rest_speed;
+    if (rest.at_rest && s.sleep && !rest.last_watch) {  // once more, with all of them awake
       wake_all(state);
-      state.at_rest = 0;
-      state.last_watch = 1;
+      rest.at_rest = 0;
+      rest.last_watch = 1;
     }
   }
-  state.rest_anchor = x;
-  state.rest_since = state.time;
+  rest.anchor = x;
+  rest.since = state.time;
 }
 
 void dem_shake(const DemModel& model, DemState& state) {
-  if (!state.at_rest) return;
+  if (!state.rest.at_rest) return;
   const auto push = next_shake(*model.base.scene, state.shake, state.time, pellets_of(state));
   if (!push) return;
   wake_all(state);
-  state.last_watch = 0;
+  state.rest = {};
   for (std::size_t i = 0; i < state.size(); ++i)
     if (state.bodies.motion[i] != Motion::fixed) state.bodies.velocity[i] += *push;
-  state.at_rest = 0;
-  state.rest_since = -1;
 }
 
 }  // namespace packbed::lattice

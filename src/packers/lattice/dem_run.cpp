@@ -14,7 +14,7 @@
 namespace packbed::lattice {
 namespace {
 
-constexpr std::uint64_t kFormat = 0x706b6264'44000006;  // changes with any change of DemState
+constexpr std::uint64_t kFormat = 0x706b6264'44000007;  // changes with any change of DemState
 
 /// Names every member once, for writing and for reading.
 template <class Archive, class S>
@@ -26,11 +26,11 @@ void visit(Archive& io, S& s) {
       io(b.travel);
   io(b.force), io(b.torque), io(b.motion);
   io(s.drawn), io(s.cell), io(s.offset), io(s.turn), io(s.phase), io(s.version), io(s.touches), io(s.doze),
-      io(s.last_watch), io(s.listed_at), io(s.search_due), io(s.at_rest), io(s.waited);
+      io(s.listed_at), io(s.search_due), io(s.waited);
   io(s.time), io(s.steps), io(s.snapshots), io(s.searches), io(s.sleeps), io(s.wakes);
   visit_shake(io, s.shake);
-  io(s.rest_since), io(s.rest_speed), io(s.rest_drift), io(s.rest_anchor), io(s.peak), io(s.wall_s),
-      io(s.cpu_s);
+  visit_rest(io, s.rest);
+  io(s.peak), io(s.wall_s), io(s.cpu_s);
 }
 
 void restore(std::span<const std::byte> bytes, const DemModel& model, DemState& state, Feeder& feeder) {
@@ -66,7 +66,7 @@ struct Run {
   bool ended() const {
     const Stepping& s = model.base.scene->stepping;
     if (s.duration > 0) return state.time >= s.duration - 0.5 * model.step;
-    return state.at_rest || state.time >= s.max_time;
+    return state.rest.at_rest || state.time >= s.max_time;
   }
 
   std::int64_t steps() const { return state.steps; }
@@ -80,15 +80,8 @@ struct Run {
     return checkpoint_of(kFormat, feeder, [&](ArchiveWriter& io) { visit(io, state); });
   }
   Progress progress() const {
-    Progress p;
-    p.simulated_s = state.time;
-    p.steps = state.steps;
-    p.fed = feeder.fed();
-    p.asked = feeder.asked();
-    p.phase = feeder.done() ? "settling" : feeder.waiting() ? "waiting for room" : "feeding";
-    const double x = static_cast<double>(p.fed) / std::max(1, p.asked);
-    p.fraction = 0.7 * x * x;
-    return p;
+    return progress_of(state, model.expected_time, model.base.scene->stepping, feeder,
+                       state.rest.last_watch > 0);
   }
 };
 
@@ -109,11 +102,11 @@ void audit(RunRecord& record, const DemModel& model, const DemState& state, cons
   line("pellets", feeder.done() && p.escaped == 0,
        fmt::format("{} asked, {} fed, {} inside, {} escaped", p.asked, p.fed, p.inside, p.escaped));
   const Stepping& s = model.base.scene->stepping;
-  record.at_rest = state.at_rest != 0;
+  record.at_rest = state.rest.at_rest != 0;
   if (!(s.duration > 0))
     line("rest", record.at_rest,
          fmt::format("speed {:.2g} m/s, drift {:.2g} of the size in {:.2g} s (limit {:.2g})",
-                     state.rest_speed, state.rest_drift, s.rest_window, s.rest_drift));
+                     state.rest.speed, state.rest.drift, s.rest_window, s.rest_drift));
   double mean = 0, most = 0;
   int touching = 0;
   for (const Touch& t : state.touches) {

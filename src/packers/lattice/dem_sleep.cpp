@@ -100,7 +100,7 @@ void wake_all(DemState& state) {
 
 void dem_sleep(const DemModel& model, DemState& state) {
   const Scene& scene = *model.base.scene;
-  if (!scene.stepping.sleep || state.last_watch || vibrates(state.shake, state.time)) return;
+  if (!scene.stepping.sleep || state.rest.last_watch || vibrates(state.shake, state.time)) return;
   const bool watch_ends = (state.steps + 1) % model.watch == 0;
   std::vector<double> lost;
   if (watch_ends) lost = lost_support(state);
