@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lattice/rasterise.hpp"
+#include "mesh/topology.hpp"
 
 namespace packbed {
 namespace {
@@ -13,10 +14,9 @@ constexpr double kMargin = 1e-3;
 
 /// Calls visit(x, y, z) for all cells that a triangle may touch; its corners are given in cells.
 template <class Visit>
-void for_each_touched(const Vec3 (&corner)[3], int size, const Visit& visit) {
-  const Vec3 low = corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]),
-             high = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]);
-  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).stableNormalized();
+void for_each_touched(const Vec3& a, const Vec3& b, const Vec3& c, int size, const Visit& visit) {
+  const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  const Vec3 normal = (b - a).cross(c - a).stableNormalized();
   const double reach = 0.5 * normal.cwiseAbs().sum() + kMargin;
   int from[3], to[3];
   for (int d = 0; d < 3; ++d) {
@@ -26,7 +26,7 @@ void for_each_touched(const Vec3 (&corner)[3], int size, const Visit& visit) {
   for (int z = from[2]; z <= to[2]; ++z)
     for (int y = from[1]; y <= to[1]; ++y)
       for (int x = from[0]; x <= to[0]; ++x)
-        if (std::abs(normal.dot(Vec3(x + 0.5, y + 0.5, z + 0.5) - corner[0])) <= reach) visit(x, y, z);
+        if (std::abs(normal.dot(Vec3(x + 0.5, y + 0.5, z + 0.5) - a)) <= reach) visit(x, y, z);
 }
 
 }  // namespace
@@ -42,10 +42,10 @@ Core::Core(const TriangleMesh& surface, double radius, double pitch) {
   Rasteriser rasteriser(frame);
   merge(rasteriser.mesh(surface, {}, 1.0, 0, frame.size[2]), cells_, 0);
   for (const auto& triangle : surface.triangles) {
-    Vec3 corner[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      corner[k] = surface.vertices[static_cast<std::size_t>(triangle[k])] / pitch + Vec3::Constant(half);
-    for_each_touched(corner, frame.size[0], [&](int x, int y, int z) {
+    const auto in_cells = [&](int k) {
+      return Vec3(corner(surface, triangle, k) / pitch + Vec3::Constant(half));
+    };
+    for_each_touched(in_cells(0), in_cells(1), in_cells(2), frame.size[0], [&](int x, int y, int z) {
       cells_.words[cells_.row(y, z) + static_cast<std::size_t>(x) / 64] &= ~(std::uint64_t{1} << (x % 64));
     });
   }

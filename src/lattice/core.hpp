@@ -8,7 +8,6 @@ namespace packbed {
 
 class Core {
  public:
-  Core() = default;
   /// Cells of this pitch that lie wholly inside a closed surface, all of it within `radius` of the origin
   /// [m].
   Core(const TriangleMesh& surface, double radius, double pitch);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "math/simd.hpp"
+#include "mesh/topology.hpp"
 
 namespace packbed {
 namespace {
@@ -31,9 +32,7 @@ constexpr int kReach = 6;
 std::vector<Vec3> places_on(const TriangleMesh& surface, double step) {
   std::vector<Vec3> places;
   for (const auto& t : surface.triangles) {
-    const Vec3 &a = surface.vertices[static_cast<std::size_t>(t[0])],
-               &b = surface.vertices[static_cast<std::size_t>(t[1])],
-               &c = surface.vertices[static_cast<std::size_t>(t[2])];
+    const Vec3 &a = corner(surface, t, 0), &b = corner(surface, t, 1), &c = corner(surface, t, 2);
     const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     const int n = std::max(1, static_cast<int>(std::ceil(longest / step)));
     for (int i = 0; i <= n; ++i)
@@ -94,11 +93,10 @@ void Probes::add_rings() {
 }
 
 void Probes::add_places(const Shape& shape, double pitch) {
-  core_ = Core(shape.surface, shape.bounding_radius, pitch / kFiner);
-  has_core_ = true;
+  core_.emplace(shape.surface, shape.bounding_radius, pitch / kFiner);
   std::size_t n = 0;
   for (const Vec3& place : spread(places_on(shape.surface, shape.bounding_radius / 16), kPlaces)) {
-    const Vec3 in = core_.inwards(kFiner / pitch * place, kReach);
+    const Vec3 in = core_->inwards(kFiner / pitch * place, kReach);
     if (in.squaredNorm() > 0) add(n++, place / pitch, kDeeper * in);
   }
 }
@@ -146,7 +144,7 @@ void Probes::ask_core(const Placed& p, Cells& cells) const {
     double own[3];
     for (int d = 0; d < 3; ++d)
       own[d] = p.per_cell * (p.turn[0][d] * x + p.turn[1][d] * y + p.turn[2][d] * z);
-    cells.solid[l] = core_.holds(own[0], own[1], own[2]);
+    cells.solid[l] = core_->holds(own[0], own[1], own[2]);
   }
 }
 

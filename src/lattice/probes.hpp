@@ -3,6 +3,7 @@
 // one of them.
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lattice/core.hpp"
@@ -28,7 +29,7 @@ class Probes {
       const std::size_t at = with_first(first, k);
       Cells cells;
       find_cells(eights_[at], placed, cells);
-      if (has_core_) ask_core(placed, cells);
+      if (core_) ask_core(placed, cells);
       for (std::size_t l = 0; l < kLane; ++l)
         if (cells.solid[l] && taken(Cell{cells.x[l], cells.y[l], cells.z[l]})) {
           first = static_cast<std::uint8_t>(at);
@@ -59,8 +60,7 @@ class Probes {
   static void find_cells(const Eight& eight, const Placed& placed, Cells& cells);
   void ask_core(const Placed& placed, Cells& cells) const;
 
-  bool has_core_ = false;
-  Core core_;
+  std::optional<Core> core_;                        // of shapes that no formula knows
   double radius_ = 0, bore_ = 0, half_height_ = 0;  // at scale 1 [cells]
   std::vector<Eight> eights_;
 };

@@ -211,9 +211,7 @@ void Rasteriser::find_crossing(const TriangleMesh& surface) {
   crossing_.resize(surface.triangles.size());
   std::size_t n = 0;
   for (std::size_t k = 0; k < surface.triangles.size(); ++k) {
-    const auto& t = surface.triangles[k];
-    const Corner &a = corners_[static_cast<std::size_t>(t[0])], &b = corners_[static_cast<std::size_t>(t[1])],
-                 &c = corners_[static_cast<std::size_t>(t[2])];
+    const auto [a, b, c] = corners_of(surface.triangles[k]);
     const auto spans = [](std::int64_t u, std::int64_t v, std::int64_t w) {
       return ceil_snap(std::min(u, std::min(v, w))) < ceil_snap(std::max(u, std::max(v, w)));
     };
@@ -254,9 +252,7 @@ const BitBlock& Rasteriser::mesh(const TriangleMesh& surface, const Pose& pose, 
       ((high - base).maxCoeff() + 1) * static_cast<double>(kSnap) < static_cast<double>(kNarrow);
   find_crossing(surface);
   for (const std::uint32_t k : crossing_) {
-    const auto& t = surface.triangles[k];
-    const Corner &a = corners_[static_cast<std::size_t>(t[0])], &b = corners_[static_cast<std::size_t>(t[1])],
-                 &c = corners_[static_cast<std::size_t>(t[2])];
+    const auto [a, b, c] = corners_of(surface.triangles[k]);
     if (narrow)
       triangle<std::int64_t>(a, b, c);
     else

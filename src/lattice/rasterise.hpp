@@ -59,6 +59,13 @@ class Rasteriser {
   bool set_box(const Vec3& low, const Vec3& high, int z_begin, int z_end);
   void sphere(const Vec3& centre, double radius);
   void cylinder(const Vec3& centre, const Vec3& axis, double radius, double bore, double half_height);
+  struct Corners {
+    const Corner &a, &b, &c;
+  };
+  Corners corners_of(const std::array<std::int32_t, 3>& t) const {
+    const auto at = [&](std::size_t i) -> const Corner& { return corners_[static_cast<std::size_t>(t[i])]; };
+    return {at(0), at(1), at(2)};
+  }
   void find_crossing(const TriangleMesh& surface);
   template <class Int>
   void triangle(const Corner& a, const Corner& b, const Corner& c);

@@ -54,8 +54,7 @@ void redraw(const DemModel& model, DemState& state, std::size_t i, StampMaker& m
   const Shape& shape = *model.base.kind(state.bodies.kind[i]).shape;
   state.drawn[i] = state.bodies.rotation[i];
   state.turn[i] = Vec3::Zero();
-  const Vec3 at = (state.bodies.position[i] - model.base.frame.origin) / model.base.frame.pitch;
-  for (int d = 0; d < 3; ++d) state.phase[i][d] = at[d] - std::floor(at[d]) - 0.5;
+  state.phase[i] = spot_of(model.base, state.bodies.position[i]).phase;
   state.stamp[i] = maker.make(shape, state.bodies.scale[i], state.drawn[i], state.phase[i]);
   relay(model, state, i);
 }

@@ -68,7 +68,7 @@ struct Place {
 
 struct Moving {
   Vec3 velocity, spin;  // of a against b at the point
-  double mass;          // effective [kg]
+  double mass = 0;      // effective [kg]
 };
 
 Moving relative(const DemState& state, const Touch& t, const Place& place) {
@@ -104,8 +104,9 @@ Told told_by_cells(const DemModel& model, const DemState& state, const Touch& t)
   return told;
 }
 
-/// Depth, normal and point; false when apart.
-bool find_place(const DemModel& model, const DemState& state, bool counted, Touch& t, Place& place) {
+/// Depth, normal and point, and how the bodies move there; false when apart.
+bool find_place(const DemModel& model, const DemState& state, bool counted, Touch& t, Place& place,
+                Moving& moving) {
   t.depth = 0;
   if (!t.meets) {
     t.known = 0;
@@ -129,8 +130,9 @@ bool find_place(const DemModel& model, const DemState& state, bool counted, Touc
   t.depth = std::max(0.0, t.last);
   t.known = 1;
 
-  const Moving m = relative(state, t, place);
-  const double passed = model.step * (m.velocity.norm() + m.spin.norm() * state.bodies.bounding_radius[t.a]);
+  moving = relative(state, t, place);
+  const double passed =
+      model.step * (moving.velocity.norm() + moving.spin.norm() * state.bodies.bounding_radius[t.a]);
   const double share = std::min(1.0, passed / (kFade * pitch));
   const Vec3 normal = t.normal + share * (t.patch.normal - t.normal);
   t.normal = normal.norm() > 0 ? Vec3(normal.normalized()) : t.patch.normal;
@@ -141,8 +143,8 @@ bool find_place(const DemModel& model, const DemState& state, bool counted, Touc
 
 /// Force and couple on a. The spring and the dashpot are spread over the patch, which resists rocking as it
 /// does sinking: radius of gyration squared of a disc, area / (4 pi).
-void push(const DemState& state, const DemLaw& law, double step, const Place& place, Touch& t) {
-  const Moving m = relative(state, t, place);
+void push(const DemState& state, const DemLaw& law, double step, const Place& place, const Moving& m,
+          Touch& t) {
   const double damping = 2 * law.damping_ratio * std::sqrt(law.stiffness * m.mass);
   const double along = m.velocity.dot(t.normal);
   const double normal = std::max(0.0, law.stiffness * t.depth - damping * along);
@@ -179,8 +181,9 @@ void dem_touch(const DemModel& model, DemState& state) {
       if (!t.meets && !t.known && !(t.depth > 0)) continue;
       t.force = t.couple = Vec3::Zero();
       Place place;
-      if (find_place(model, state, counted, t, place))
-        push(state, is_wall(t.b) ? model.wall : model.pellet, model.step, place, t);
+      Moving moving;
+      if (find_place(model, state, counted, t, place, moving))
+        push(state, is_wall(t.b) ? model.wall : model.pellet, model.step, place, moving, t);
     }
   });
   Bodies& b = state.bodies;

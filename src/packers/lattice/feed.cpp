@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "math/error.hpp"
 #include "packers/lattice/step.hpp"
@@ -28,13 +27,7 @@ std::vector<Cell> nudges() {
 }
 
 bool lay(const Model& model, State& state, const Pellet& p, StampMaker& maker) {
-  const Vec3 at = (p.pose.position - model.frame.origin) / model.frame.pitch;
-  Cell cell{};
-  Vec3 phase;
-  for (int d = 0; d < 3; ++d) {
-    cell[static_cast<std::size_t>(d)] = static_cast<int>(std::floor(at[d]));
-    phase[d] = at[d] - std::floor(at[d]) - 0.5;
-  }
+  const auto [cell, phase] = spot_of(model, p.pose.position);
   Stamp stamp = maker.make(*model.kind(p.shape).shape, p.scale, p.pose.rotation, phase);
   static const std::vector<Cell> kNudges = nudges();
   for (const Cell& nudge : kNudges) {

@@ -148,11 +148,22 @@ Model make_model(const Scene& scene) {
   model.space = open_space(scene, model.frame);
   check_open(scene, model.frame, model.space, model.largest);
   model.rim = model.space.frame.size[2] - 1;
-  for (const PelletKind& kind : scene.pellets) model.probes.emplace_back(*kind.shape, model.rules.voxel);
+  if (model.method == Method::digicgp && !model.rules.turn_cells)
+    for (const PelletKind& kind : scene.pellets) model.probes.emplace_back(*kind.shape, model.rules.voxel);
   model.step_time = scene.feed.interval / model.rules.interval;
   // bounding spheres of two cells more, for what a pellet may move in one step, on both sides
   model.slab = 2 * static_cast<int>(std::ceil(model.largest / model.rules.voxel)) + 8;
   return model;
+}
+
+Spot spot_of(const Model& model, const Vec3& position) {
+  const Vec3 at = (position - model.frame.origin) / model.frame.pitch;
+  Spot spot;
+  for (int d = 0; d < 3; ++d) {
+    spot.cell[static_cast<std::size_t>(d)] = static_cast<int>(std::floor(at[d]));
+    spot.phase[d] = at[d] - std::floor(at[d]) - 0.5;
+  }
+  return spot;
 }
 
 Pose pose_of(const Model& model, const State& state, std::size_t i) {

@@ -19,7 +19,7 @@ struct Model {
   GridFrame frame;     // cells of the lattice; z as high as pellets enter
   VoxelGrid space;     // open cells of the container; above its rim as in `rim`
   int rim = 0;
-  std::vector<Probes> probes;      // of each kind of pellet
+  std::vector<Probes> probes;      // of each kind of pellet; digicgp, none where cells are turned
   double largest = 0;              // bounding radius of the largest pellet [m]
   double step_time = 0;            // that one step stands for in the feed [s]
   std::vector<std::string> notes;  // what the user should know of this scene on a lattice
@@ -91,6 +91,12 @@ Model make_model(const Scene& scene);
 inline double time_of(const Model& model, const State& state) {
   return static_cast<double>(state.steps) * model.step_time;
 }
+/// The cell that a place is in, and where in it, from its centre [cells].
+struct Spot {
+  Cell cell{};
+  Vec3 phase = Vec3::Zero();
+};
+Spot spot_of(const Model& model, const Vec3& position);
 Pose pose_of(const Model& model, const State& state, std::size_t i);
 /// Pellets as they are now, in the order of the state.
 std::vector<Pellet> pellets_of(const Model& model, const State& state);
